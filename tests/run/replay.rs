@@ -267,19 +267,35 @@ fn recorded_efforts_are_recognised_as_torques() {
     assert!(answer.stdout.contains("effort     fail"), "{}", answer.stdout);
 }
 
-/// Two stands, whose tool points are 1 and 100 mm apart by the model.
+/// A joint that is lost and does not come back: what follows is not a log that nobody has seen.
+#[test]
+fn instants_behind_the_last_whole_one_count() {
+    let scratch = ScratchFolder::new();
+    let line = |row: u32| {
+        let elbow = if row < 100 { "1.4" } else { "null" };
+        let others = r#""shoulder_pan_joint": 0, "shoulder_lift_joint": -1.2, "wrist_1_joint": -1.6, "wrist_2_joint": -1.57, "wrist_3_joint": 0"#;
+        format!("{{\"time_s\": {}, \"q\": {{\"elbow_joint\": {elbow}, {others}}}}}\n", 0.01 * f64::from(row))
+    };
+    let lines: Vec<String> = (0..300).map(line).collect();
+    let log = scratch.write("lost.jsonl", &lines.concat());
+    let out = text(&scratch.path().join("out"));
+    let answer = congruent(&["replay", "robots/ur5e", &log, "--out", &out, "--no-recording"]);
+    assert_eq!(answer.code, 1, "{}{}", answer.stdout, answer.stderr);
+    assert!(answer.stdout.contains("200 of 300 instants left out"), "{}", answer.stdout);
+}
+
+/// Two configurations at rest, whose tool points are 1 and 100 mm apart by the model.
 #[test]
 fn a_touched_point_has_one_place() {
     let scratch = ScratchFolder::new();
     let run = |second: f64| {
-        let mut rows = String::from(
-            "time_s,shoulder_pan_joint,shoulder_lift_joint,elbow_joint,wrist_1_joint,wrist_2_joint,wrist_3_joint\n",
-        );
-        for row in 0..200 {
+        let head = "time_s,shoulder_pan_joint,shoulder_lift_joint,elbow_joint,wrist_1_joint,wrist_2_joint,wrist_3_joint\n";
+        let row = |row: u32| {
             let pan = if row < 100 { 0.0 } else { second };
-            rows += &format!("{},{pan},-1.2,1.4,-1.6,-1.57,0\n", 0.01 * f64::from(row));
-        }
-        scratch.write("log.csv", &rows);
+            format!("{},{pan},-1.2,1.4,-1.6,-1.57,0\n", 0.01 * f64::from(row))
+        };
+        let rows: Vec<String> = std::iter::once(head.to_owned()).chain((0..200).map(row)).collect();
+        scratch.write("log.csv", &rows.concat());
         let check = "[[check]]\nkind = \"same_point\"\nspread_mm = 1\n";
         let robot = text(&crate::support::corpus::workspace().join("robots/ur5e"));
         let scenario = format!(

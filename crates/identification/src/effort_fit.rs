@@ -13,7 +13,7 @@ use crate::{
     unknowns::JointUnknown,
 };
 
-/// A window is taken if it leaves at most this much more of the efforts than the best one, and no shorter one does. No unit; kind: choice.
+/// A window is taken if the residual of the efforts with it is at most this much larger than with the best one, and that of no shorter one is. No unit; kind: choice.
 const AS_GOOD: f64 = 1.1;
 /// Length of a block, s; they are filled in turns, since nobody knows when the samples end. Kind: choice.
 const BLOCK_S: f64 = 1.0;
@@ -40,8 +40,15 @@ impl EffortFit {
     /// For samples that are this far apart.
     pub fn new(tree: BodyTree, period_s: f64) -> Self {
         let joints = tree.driven_joints().len();
-        let empty: SmallBlocks =
-            vec![SummedRows { gram: DMatrix::zeros(SMALL, SMALL), rows: 0, armature_noise: 0.0 }; BLOCKS];
+        let empty: SmallBlocks = vec![
+            SummedRows {
+                gram: DMatrix::zeros(SMALL, SMALL),
+                rows: 0,
+                armature_noise: 0.0,
+                delay_signal: 1.0
+            };
+            BLOCKS
+        ];
         let windows = Smoothing::of_period(period_s)
             .map(|smoothing| (SmoothingWindow::new(smoothing), vec![empty.clone(); joints]))
             .collect();

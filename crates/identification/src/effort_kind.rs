@@ -45,11 +45,11 @@ pub struct RecognisedEffort {
 /// Torques whose factor is at most this, or its inverse, are torques of a robot with other masses; a motor with its gear has factors of
 /// some N m/A. No unit; kind: choice.
 const STILL_TORQUE: f64 = 2.5;
-/// What is left as a torque, compared with what is left as a current, which has one unknown more. No unit; kind: choice.
+/// The residual as a torque, compared with the residual as a current, which has one unknown more. No unit; kind: choice.
 const AS_GOOD: f64 = 1.5;
 /// Torques without gravity leave less than torques by this factor at least. No unit; kind: choice.
 const CLEARLY: f64 = 2.0;
-/// More than this part of the variance is not explained: no unit; kind: choice. A UR5e leaves 0.02, a Panda with its worst joint 0.3.
+/// More than this part of the variance is not explained: no unit; kind: choice. It is 0.02 of a UR5e, 0.3 of the worst joint of a Panda.
 const UNEXPLAINED: f64 = 0.5;
 /// A factor is known if its standard error is at most this part of it. No unit; kind: choice.
 const KNOWN_FACTOR: f64 = 0.2;
@@ -61,8 +61,8 @@ pub fn recognise(equations: &RecordedEquations) -> RecognisedEffort {
     let small = |(row, joint): (usize, &JointEquations)| {
         let map = small_columns(equations, row, joint);
         let block = |at: usize| {
-            let SummedRows { gram, rows, armature_noise } = joint.sum(|block| block == at);
-            SummedRows { gram: map.transpose() * gram * &map, rows, armature_noise }
+            let sum = joint.sum(|block| block == at);
+            SummedRows { gram: map.transpose() * &sum.gram * &map, ..sum }
         };
         (0..BLOCKS).map(block).collect()
     };
@@ -94,7 +94,7 @@ fn kind([torque, without_gravity, current]: [f64; 3], middle_factor: Option<f64>
         return EffortKind::Unknown;
     }
     let is_good = |left: f64| left <= AS_GOOD * current;
-    // A slide that stands upright has the same gravity everywhere: a constant effort takes its place, and nothing distinguishes the two.
+    // An upright slide has the same gravity everywhere: a constant effort takes its place, and nothing distinguishes the two.
     if is_good(without_gravity) && without_gravity < torque / CLEARLY {
         return EffortKind::TorqueWithoutGravity;
     }
@@ -177,7 +177,7 @@ fn small_columns(equations: &RecordedEquations, row: usize, joint: &JointEquatio
     map
 }
 
-/// What multiplies the few columns so that their sum is what is left of the effort, as each kind.
+/// What multiplies the few columns so that their sum is the residual of the effort, as each kind.
 fn solutions(gram: &DMatrix<f64>) -> [DVector<f64>; 3] {
     let known = |rigid: f64, gravity: f64| {
         let mut known = DVector::zeros(SMALL);
@@ -193,7 +193,7 @@ fn solutions(gram: &DMatrix<f64>) -> [DVector<f64>; 3] {
     ]
 }
 
-/// The columns that are free make what is left smallest.
+/// The columns that are free make the residual smallest.
 fn solved(gram: &DMatrix<f64>, mut known: DVector<f64>, free: &[usize]) -> DVector<f64> {
     let right = -(gram * &known).select_rows(free);
     let part = gram.select_rows(free).select_columns(free);

@@ -8,9 +8,6 @@ use crate::unknowns::{JointUnknown, UnknownOrder};
 /// The blocks of time in which equations are added up: what one of them holds is left out together. Kind: choice; four of each fifth.
 pub(crate) const BLOCKS: usize = 20;
 
-/// What is taken for noise of the column of the delay, at most. No unit; kind: choice.
-const MOST_NOISE: f64 = 0.9;
-
 /// Inner products of the columns of some rows.
 #[derive(Debug, Clone)]
 pub(crate) struct SummedRows {
@@ -20,6 +17,8 @@ pub(crate) struct SummedRows {
     pub(crate) rows: usize,
     /// What the noise of the positions adds to the square of the column of the armature.
     pub(crate) armature_noise: f64,
+    /// The part of the square of the column of the delay that is not noise.
+    pub(crate) delay_signal: f64,
 }
 
 /// The equations of one driven joint.
@@ -105,10 +104,11 @@ impl JointEquations {
         }
         // Only the lower triangle was added up.
         gram.fill_upper_triangle_with_lower_triangle();
-        let delay = self.delay_column();
-        // Never all of it: a column that is noise alone says nothing, and stays one.
-        gram[(delay, delay)] -= delay_noise.min(MOST_NOISE * gram[(delay, delay)]);
-        SummedRows { gram, rows, armature_noise }
+        let at = self.delay_column();
+        let whole = gram[(at, at)];
+        gram[(at, at)] = (whole - delay_noise).max(0.0);
+        let delay_signal = if whole > 0.0 { gram[(at, at)] / whole } else { 0.0 };
+        SummedRows { gram, rows, armature_noise, delay_signal }
     }
 
     /// The unknown of each column but those of gravity and of the effort.
@@ -158,7 +158,7 @@ impl RecordedEquations {
         self
     }
 
-    /// The same equations with the recorded effort of each driven joint multiplied by a factor; a joint whose factor is no number has no
+    /// The same equations with the recorded effort of each driven joint multiplied by a factor; a joint whose factor is not a number has no
     /// rows. `relative_errors` are those of the factors.
     #[must_use]
     pub fn with_factors(mut self, factors: &[f64], relative_errors: &[f64]) -> Self {

@@ -1,25 +1,25 @@
 //! The parameters that explain recorded efforts best.
 
-use congruent_dynamics::{PARAMETERS, SpatialInertia};
+use congruent_dynamics::PARAMETERS;
 use congruent_kinematics::least_squares::BalancedCholesky;
-use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use nalgebra::{DMatrix, DVector};
 
 use crate::{
     equations::{BLOCKS, JointEquations, RecordedEquations, SummedRows},
+    free_bodies::free_bodies,
     indistinct::dependent,
-    pseudo_inertia::{Parameters, is_body, metric},
     solve::{Bounds, Quadratic},
-    unknowns::{FreeGroup, FreeUnknowns, JointUnknown, PayloadPlace, UnknownOrder},
+    unknowns::{FreeUnknowns, JointUnknown, UnknownOrder},
 };
 
-/// What an estimate leaves of the effort of a joint.
+/// The residual of the effort of a joint after an estimate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointNoise {
     /// Root mean square, N m or N.
     pub rms: f64,
     /// Rows that it is of.
     pub rows: usize,
-    /// How many rows count as one, since what is left of an instant resembles what is left of the next one.
+    /// How many rows count as one, since the residual of an instant resembles the residual of the next one.
     pub alike: f64,
 }
 
@@ -42,7 +42,7 @@ pub struct ParameterEstimate {
     pub(crate) held: Vec<(usize, Vec<usize>)>,
     /// Combinations of the free inertial parameters that the recording says more of than was known before, and how many there are.
     pub(crate) known_combinations: [usize; 2],
-    /// What is left, of each driven joint.
+    /// The residual, of each driven joint.
     pub noise: Vec<JointNoise>,
 }
 
@@ -60,20 +60,14 @@ impl ParameterEstimate {
     }
 }
 
-/// The noise is estimated from what is left, and weighs the joints in the next estimate. Kind: choice; the third changes it by less
+/// The noise is estimated from the residual, and weighs the joints in the next estimate. Kind: choice; the third changes it by less
 /// than a percent.
 const ROUNDS: usize = 4;
 /// What is thought to be left at first, as part of the effort: so little that what was known before has no weight, or it would stay
 /// what it was and be the noise. No unit; kind: choice.
 const AT_FIRST: f64 = 1e-4;
-/// What is left is at least this part of the effort: rounding in the sums of squares. No unit; kind: rounding.
+/// The residual is at least this part of the effort: rounding in the sums of squares. No unit; kind: rounding.
 const LEAST_LEFT: f64 = 1e-7;
-/// A payload is thought to be a ball of this mass and radius, times ten: what nothing in the recording says stays near none. kg and m;
-/// kind: choice.
-const PAYLOAD_KG: f64 = 1.0;
-const PAYLOAD_RADIUS_M: f64 = 0.1;
-const PAYLOAD_IS_KNOWN: f64 = 0.01;
-
 /// The estimate from some of the blocks. `None` if no joint has rows.
 pub(crate) fn estimate(
     equations: &RecordedEquations,
@@ -172,11 +166,11 @@ impl<'a> WeightedEfforts<'a> {
         let mut free = Vec::new();
         let mut bounds = Bounds::default();
         let mut metrics = Vec::new();
-        for (body, parts) in bodies(equations, parameters) {
-            bounds.bodies.push((free.len(), parts.added_to));
-            bounds.begin.push(parts.begin);
-            metrics.push(parts.metric);
-            free.extend(UnknownOrder::body(body));
+        for of in free_bodies(equations, parameters) {
+            bounds.bodies.push((free.len(), of.added_to));
+            bounds.begin.push(of.begin);
+            metrics.push(of.metric);
+            free.extend(UnknownOrder::body(of.body));
         }
         let inertial = free.len();
         let (terms, held) = free_terms(equations, parameters, sums);
@@ -186,11 +180,8 @@ impl<'a> WeightedEfforts<'a> {
             }
             free.push(unknown);
         }
-        // Of efforts at rest, and of a motion without efforts, it has no effect.
-        let shows_delay = equations.joints.iter().zip(sums).any(|(joint, sum)| {
-            let at = joint.delay_column();
-            sum.gram[(at, at)] > 0.0
-        });
+        // Of efforts at rest, and of a motion without efforts, it has no effect, and of efforts that are noise none that shows.
+        let shows_delay = sums.iter().any(|sum| sum.delay_signal > SHOWS_DELAY);
         free.extend(shows_delay.then(|| layout.delay()));
         let mut prior = DMatrix::zeros(free.len(), free.len());
         for ((first, _), metric) in bounds.bodies.iter().zip(metrics) {
@@ -244,7 +235,7 @@ impl<'a> WeightedEfforts<'a> {
         Quadratic { information, right_side }
     }
 
-    /// What an estimate leaves of the effort of a joint.
+    /// The residual of the effort of a joint after an estimate.
     fn noise(
         &self,
         row: usize,
@@ -303,47 +294,11 @@ impl<'a> WeightedEfforts<'a> {
     }
 }
 
-/// A body whose parameters are free.
-struct FreeBody {
-    added_to: Parameters,
-    begin: Parameters,
-    metric: nalgebra::SMatrix<f64, PARAMETERS, PARAMETERS>,
-}
-
-/// The bodies whose parameters are free. A body that the description gives no mass, or one that cannot exist, is not.
-fn bodies(equations: &RecordedEquations, parameters: &FreeUnknowns) -> Vec<(usize, FreeBody)> {
-    let nominal = |body: usize| {
-        Parameters::from_column_slice(equations.nominal.rows_range(UnknownOrder::body(body)).as_slice())
-    };
-    if parameters.has_group(FreeGroup::Links) {
-        let all = (0..equations.layout.bodies).filter(|body| is_body(&nominal(*body)));
-        let free = all.filter_map(|body| {
-            let about = nominal(body);
-            Some((body, FreeBody { added_to: about, begin: about, metric: metric(&about)? }))
-        });
-        return free.collect();
-    }
-    let payload = parameters.payload_alone().and_then(|place| {
-        let ball = payload_ball(&place);
-        let metric = metric(&ball)? * PAYLOAD_IS_KNOWN;
-        Some((place.joint, FreeBody { added_to: Parameters::zeros(), begin: ball, metric }))
-    });
-    payload.into_iter().collect()
-}
-
-/// A ball at the place of the payload, in the frame of the link of the joint.
-fn payload_ball(place: &PayloadPlace) -> Parameters {
-    let moment = 0.4 * PAYLOAD_KG * PAYLOAD_RADIUS_M * PAYLOAD_RADIUS_M;
-    let ball = SpatialInertia {
-        mass_kg: PAYLOAD_KG,
-        first_moment_kg_m: Vector3::zeros(),
-        tensor_kg_m2: Matrix3::identity() * moment,
-    };
-    ball.transformed_by(&place.link_from_payload).parameters().into()
-}
-
 /// Accelerations whose squares are less than so many times those of the noise show nothing. No unit; kind: choice.
 const NOISE_ALONE: f64 = 4.0;
+
+/// The delay shows if at least this part of the square of its column is not noise, of one joint. No unit; kind: choice.
+const SHOWS_DELAY: f64 = 0.2;
 
 /// The terms of joints that are free, and those that cannot be distinguished from others.
 type Terms = (Vec<(usize, JointUnknown)>, Vec<(usize, Vec<usize>)>);
@@ -351,7 +306,7 @@ type Terms = (Vec<(usize, JointUnknown)>, Vec<(usize, Vec<usize>)>);
 fn free_terms(equations: &RecordedEquations, parameters: &FreeUnknowns, sums: &[SummedRows]) -> Terms {
     let (mut terms, mut held) = (Vec::new(), Vec::new());
     for (row, joint) in equations.joints.iter().enumerate() {
-        let SummedRows { gram, rows, armature_noise } = &sums[row];
+        let SummedRows { gram, rows, armature_noise, .. } = &sums[row];
         if *rows == 0 {
             continue;
         }
@@ -382,7 +337,7 @@ fn free_terms(equations: &RecordedEquations, parameters: &FreeUnknowns, sums: &[
     (terms, held)
 }
 
-/// The unknowns of a joint's columns, and -1 for the recorded effort: the columns times this are what is left.
+/// The unknowns of a joint's columns, and -1 for the recorded effort: the columns times this are the residual.
 pub(crate) fn local(equations: &RecordedEquations, row: usize, x: &DVector<f64>) -> DVector<f64> {
     let joint = &equations.joints[row];
     let mut local = DVector::zeros(joint.columns());

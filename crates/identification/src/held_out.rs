@@ -11,7 +11,7 @@ use crate::{
 /// Parts of the time, each of which is left out once. Kind: choice.
 pub(crate) const FOLDS: usize = 5;
 
-/// What is left of the effort of a joint in data that were left out of the estimate.
+/// The residual of the effort of a joint in data that were left out of the estimate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HeldOutEffort {
     /// By the description, root mean square, N m or N; the delay of the efforts and constant efforts are those that fit it best, from the
@@ -25,7 +25,7 @@ pub struct HeldOutEffort {
     pub rows: usize,
 }
 
-/// What is left of each driven joint: each fifth of the time by the parameters of the other four.
+/// The residual of each driven joint: each fifth of the time by the parameters of the other four.
 pub(crate) fn held_out(equations: &RecordedEquations, free: &FreeUnknowns) -> Vec<HeldOutEffort> {
     let none = HeldOutSums::default();
     let mut sums = vec![none; equations.joints.len()];

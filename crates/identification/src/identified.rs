@@ -36,9 +36,9 @@ pub struct IdentifiedJoint {
     pub joint: usize,
     /// Its terms that were estimated.
     pub terms: Vec<(JointUnknown, IdentifiedValue)>,
-    /// What is left of its effort in data that were left out.
+    /// The residual of its effort in data that were left out.
     pub held_out: HeldOutEffort,
-    /// What is left in the data that the estimate is from.
+    /// The residual in the data that the estimate is from.
     pub noise: JointNoise,
 }
 
@@ -81,7 +81,7 @@ pub struct IndistinctTerm {
     pub from: Vec<JointUnknown>,
 }
 
-/// On data that were left out, what is left has to be smaller by this part at least. No unit; kind: choice.
+/// On data that were left out, the residual has to be smaller by this part at least. No unit; kind: choice.
 const BETTER: f64 = 0.02;
 /// And it may be larger for no joint by more than this part: a joint that the description explains already is predicted a little worse
 /// by estimates. No unit; kind: choice.

@@ -17,6 +17,7 @@ mod effort_kind;
 mod equations;
 mod estimate;
 pub mod excitation;
+mod free_bodies;
 mod held_out;
 mod identified;
 mod indistinct;

@@ -131,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn parameters_survive_the_way_there_and_back() {
+    fn parameters_are_those_of_their_pseudo_inertia() {
         let body = body();
         assert!((parameters(&pseudo_inertia(&body)) - body).amax() < 1e-15);
         assert!((Triangle::of(&body).unwrap().parameters() - body).amax() < 1e-15);

@@ -71,7 +71,7 @@ impl SampledParts {
         let seen = Smoothing::candidates(&self.parts).into_iter().filter_map(|of| self.seen_with(of));
         let mut seen: Vec<SeenWithWindow> = seen.collect();
         let joints = 0..seen.last()?.means.len();
-        // What a polynomial leaves is noise, and motion that it does not describe: of the latter, some window has least.
+        // The residual of a polynomial is noise, and motion that it does not describe: of the latter, some window has least.
         let least =
             |joint: usize| seen.iter().map(|of| of.means[joint].q_variance).fold(f64::INFINITY, f64::min);
         let noise: Vec<f64> = joints.clone().map(least).collect();
@@ -86,7 +86,7 @@ impl SampledParts {
         let best = seen.iter().map(part_of).fold(f64::INFINITY, f64::min);
         let at = seen.iter().position(|of| part_of(of) <= best.max(NOISE))?;
         let mut chosen = seen.swap_remove(at).survey;
-        // The speed of a joint that stands is noise.
+        // The speed of a joint at rest is noise.
         let speeds = chosen.fast_speeds.iter_mut().zip(&moves);
         speeds.filter(|(_, moves)| !**moves).for_each(|(speed, _)| *speed = 0.0);
         Some(chosen)
@@ -100,11 +100,9 @@ impl SampledParts {
             for row in part {
                 window.push(row.clone(), |instant| {
                     speeds.resize(instant.qd.len(), Vec::new());
+                    speeds.iter_mut().zip(&instant.qd).for_each(|(speeds, qd)| speeds.push(qd.abs()));
                     means.resize(instant.qd.len(), MeanSquares::default());
-                    for (joint, mean) in means.iter_mut().enumerate() {
-                        speeds[joint].push(instant.qd[joint].abs());
-                        mean.add(instant, joint);
-                    }
+                    means.iter_mut().enumerate().for_each(|(joint, mean)| mean.add(instant, joint));
                 });
             }
         }
@@ -113,8 +111,8 @@ impl SampledParts {
             all.get(all.len() * 19 / 20).copied().unwrap_or(0.0)
         };
         let fast_speeds: Vec<f64> = speeds.iter_mut().map(fast).collect();
-        (!fast_speeds.is_empty())
-            .then(|| SeenWithWindow { survey: RecordingSurvey { smoothing, fast_speeds }, means })
+        let survey = RecordingSurvey { smoothing, fast_speeds };
+        (!means.is_empty()).then_some(SeenWithWindow { survey, means })
     }
 }
 

@@ -130,10 +130,10 @@ impl Quadratic {
     }
 }
 
-/// The body nearest to a wanted one, on the way to it, that can exist with some room: a search from there is short.
+/// The body nearest to a wanted one, between it and a known one, that can exist with some room: a search from there is short.
 fn towards(begin: &Parameters, wanted: &Parameters) -> Parameters {
     const HALVINGS: usize = 40;
-    /// Part of the way to the boundary.
+    /// Part of the distance to the boundary.
     const ROOM: f64 = 0.9;
     if is_body(wanted) {
         return *wanted;
@@ -141,7 +141,7 @@ fn towards(begin: &Parameters, wanted: &Parameters) -> Parameters {
     let at = |part: f64| begin * (1.0 - part) + wanted * part;
     let (mut inside, mut outside) = (0.0, 1.0);
     for _ in 0..HALVINGS {
-        let middle = (inside + outside) / 2.0;
+        let middle = f64::midpoint(inside, outside);
         let limit = if is_body(&at(middle)) { &mut inside } else { &mut outside };
         *limit = middle;
     }

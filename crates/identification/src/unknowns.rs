@@ -1,4 +1,4 @@
-//! What is unknown of a robot, and where it stands in the vector of unknowns.
+//! What is unknown of a robot, and its place in the vector of unknowns.
 
 use std::ops::Range;
 

@@ -49,21 +49,47 @@ fn noise(at: usize) -> f64 {
     2.0 * (x - x.floor()) - 1.0
 }
 
-/// The equations of a recording of 40 s at 250 Hz, of which the efforts are those of `real`, changed by `effort`.
+/// How a recording is made.
+struct Recorder {
+    period_s: f64,
+    rows: usize,
+    /// Steps of the encoders, rad or m.
+    step: f64,
+    /// Efforts are those of so long before, s.
+    delay_s: f64,
+    /// Noise of the efforts, N m or N, at most.
+    noise: f64,
+}
+
+const GOOD: Recorder = Recorder { period_s: 0.004, rows: 10_000, step: 0.0, delay_s: 0.0, noise: 0.05 };
+
+/// The equations of a recording of 40 s, of which the efforts are those of `real`, changed by `effort`.
 fn recorded(
     robot: &Robot,
     description: &BodyTree,
     real: &BodyTree,
     effort: impl Fn(usize, f64, f64) -> f64,
 ) -> RecordedEquations {
+    recorded_by(&GOOD, robot, description, real, effort)
+}
+
+fn recorded_by(
+    recorder: &Recorder,
+    robot: &Robot,
+    description: &BodyTree,
+    real: &BodyTree,
+    effort: impl Fn(usize, f64, f64) -> f64,
+) -> RecordedEquations {
     let dof = real.dof();
-    let (rows, period_s) = (10_000_usize, 0.004);
+    let (rows, period_s) = (recorder.rows, recorder.period_s);
     let times = (0..rows).map(|at| f64::from(u32::try_from(at).unwrap()) * period_s);
     let positions: Vec<(f64, RobotQ)> = times.map(|time_s| (time_s, motion(time_s, robot).0)).collect();
     let (mut tau, mut gravity, mut buffer) = (vec![0.0; dof], vec![0.0; dof], real.buffer());
     let mut efforts: Vec<Vec<f64>> = Vec::new();
-    for (at, (time_s, q)) in positions.iter().enumerate() {
-        let (_, qd, qdd) = motion(*time_s, robot);
+    let encoder = |q: f64| if recorder.step > 0.0 { (q / recorder.step).round() * recorder.step } else { q };
+    for (at, (time_s, _)) in positions.iter().enumerate() {
+        let (q, qd, qdd) = motion(time_s - recorder.delay_s, robot);
+        let q = &q;
         real.inverse_into(&JointMotionState { q, qd: &qd, qdd: &qdd }, &mut buffer, &mut tau).unwrap();
         real.gravity_into(q, &mut buffer, &mut gravity).unwrap();
         // The motor of a joint moves its followers, too.
@@ -75,10 +101,12 @@ fn recorded(
             }
         }
         let effort: Vec<f64> = (0..dof)
-            .map(|joint| effort(joint, tau[joint], gravity[joint]) + 0.05 * noise(at * dof + joint))
+            .map(|joint| effort(joint, tau[joint], gravity[joint]) + recorder.noise * noise(at * dof + joint))
             .collect();
         efforts.push(effort);
     }
+    let positions: Vec<(f64, RobotQ)> =
+        positions.into_iter().map(|(time_s, q)| (time_s, q.iter().map(|q| encoder(*q)).collect())).collect();
     let row = |at: usize| RecordedRow { time_s: positions[at].0, q: &positions[at].1, effort: &efforts[at] };
     let mut parts = SampledParts::new(0.0, 40.0);
     (0..rows).for_each(|at| parts.push(row(at)));
@@ -206,6 +234,70 @@ fn currents_and_torques_without_gravity_are_recognised() {
     let none = recorded(&ur5e.robot, &description, &real, |_, _, _| 0.0);
     // Noise alone: nothing of the robot is in it.
     assert_eq!(recognise(&none).kind, EffortKind::Unknown);
+}
+
+/// The hobby servo's encoder: accelerations are noise unless the window averages it, and an armature would vanish.
+#[test]
+fn a_coarse_encoder_does_not_take_the_armature_away() {
+    let ur5e = robot("ur5e");
+    let description = BodyTree::new(&ur5e.robot);
+    let terms = real_terms(6);
+    let real = description.clone().with_resistances(terms.clone()).unwrap();
+    let coarse = Recorder { period_s: 0.01, rows: 4000, step: std::f64::consts::TAU / 4096.0, ..GOOD };
+    let equations = recorded_by(&coarse, &ur5e.robot, &description, &real, |_, tau, _| tau);
+    let found = identify(&equations, &free(&[FreeGroup::Friction, FreeGroup::Armature])).unwrap();
+    assert!(found.is_better);
+    for (joint, expected) in found.joints.iter().zip(&terms) {
+        let armature = joint.terms.iter().find(|(term, _)| *term == JointUnknown::Armature).unwrap().1;
+        assert!((armature.value - expected.armature).abs() < 0.25 * expected.armature, "{armature:?}");
+    }
+}
+
+/// Efforts that are late look like viscous friction, and noise of their derivative hides that they are late.
+#[test]
+fn late_and_noisy_efforts_are_known_to_be_late() {
+    let ur5e = robot("ur5e");
+    let description = BodyTree::new(&ur5e.robot);
+    let terms = real_terms(6);
+    let real = description.clone().with_resistances(terms.clone()).unwrap();
+    for delay_s in [0.002, 0.02] {
+        let late = Recorder { period_s: 0.01, rows: 4000, delay_s, noise: 0.5, ..GOOD };
+        let equations = recorded_by(&late, &ur5e.robot, &description, &real, |_, tau, _| tau);
+        let found = identify(&equations, &free(&[FreeGroup::Friction, FreeGroup::Armature])).unwrap();
+        let (found_s, error_s) = found.delay_s.unwrap();
+        assert!((found_s - delay_s).abs() < 4.0 * error_s && error_s < 0.003, "{found_s} {error_s}");
+        for (joint, expected) in found.joints.iter().zip(&terms) {
+            let viscous = joint.terms.iter().find(|(term, _)| *term == JointUnknown::Viscous).unwrap().1;
+            let off = (viscous.value - expected.damping).abs();
+            assert!(off < 4.0 * viscous.standard_error, "{viscous:?} {expected:?}");
+        }
+    }
+}
+
+/// An arm of half the masses has torques, not currents, and not torques without gravity.
+#[test]
+fn other_masses_feign_no_other_kind() {
+    let ur5e = robot("ur5e");
+    let description = BodyTree::new(&ur5e.robot);
+    let half = (0..6).map(|joint| {
+        SpatialInertia::from_parameters(description.inertia_in_link(joint).parameters().map(|of| 0.5 * of))
+    });
+    let real = description.clone().with_inertias_in_links(&half.collect::<Vec<_>>()).unwrap();
+    let equations = recorded(&ur5e.robot, &description, &real, |_, tau, _| tau);
+    assert_eq!(recognise(&equations).kind, EffortKind::Torque);
+}
+
+/// A description that is right is not bettered by what it does not say: a constant effort and a delay.
+#[test]
+fn nothing_is_better_than_a_description_that_is_right() {
+    let ur5e = robot("ur5e");
+    let description = BodyTree::new(&ur5e.robot).with_resistances(real_terms(6)).unwrap();
+    let late = Recorder { delay_s: 0.005, ..GOOD };
+    let equations = recorded_by(&late, &ur5e.robot, &description, &description, |_, tau, _| tau + 0.7);
+    let found = identify(&equations, &free(&[FreeGroup::Friction, FreeGroup::Armature])).unwrap();
+    assert!(!found.is_better);
+    let (found_s, error_s) = found.delay_s.unwrap();
+    assert!((found_s - 0.005).abs() < 4.0 * error_s, "{found_s} {error_s}");
 }
 
 /// At rest gravity acts alone: masses and centres show, friction does not.

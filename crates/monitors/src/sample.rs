@@ -39,6 +39,8 @@ pub struct Sample<'a> {
     pub since_s: Option<f64>,
     /// Instants since the sample before that the source has left out, since a joint was not known.
     pub left_out: u64,
+    /// Instants that the source has left out after this sample, if it is the last.
+    pub left_out_after: u64,
     /// What is between the sample before and this one; `None` for the first, and for one that follows.
     pub interruption: Option<Interruption>,
     /// When the last motion ends, as far as it is known by now.

@@ -67,6 +67,7 @@ struct NamedLog<'a> {
 }
 
 /// What becomes of poses in frames that the robot does not have.
+#[derive(Debug, Clone, Copy)]
 enum UnknownFrames {
     /// Their frames are fitted to the log.
     Fitted,

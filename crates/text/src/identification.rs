@@ -29,8 +29,7 @@ pub fn identification_text(report: &IdentificationReport) -> String {
         let delay = with_error(1000.0 * delay_s.abs(), 1000.0 * error_s);
         let side = if delay_s < 0.0 { "earlier" } else { "later" };
         let is_long = delay_s.abs() > LONGEST_DELAY * report.half_window_s;
-        let remark =
-            if is_long { ": longer than the window, so that it stands for something else" } else { "" };
+        let remark = if is_long { ": longer than the window, so that it is no delay" } else { "" };
         let _ = writeln!(text, "  efforts are recorded {delay} ms {side} than positions{remark}");
     }
     if !report.joints_not_in_log.is_empty() {

@@ -1,7 +1,5 @@
 //! `congruent plan`: a motion that shows the parameters of a robot.
 
-#![expect(clippy::doc_markdown, reason = "the comments are printed as help, where backticks are noise")]
-
 use std::path::PathBuf;
 
 use congruent::{

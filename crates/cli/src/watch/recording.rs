@@ -31,7 +31,7 @@ pub(super) struct RecordingArguments {
     /// Write a recording for the rerun viewer into this file.
     #[arg(long = "recording", value_name = "FILE.rrd")]
     file: Option<PathBuf>,
-    /// Most MB of the recording. Before it becomes larger it takes no further sample; the run goes on, and its verdict is added at
+    /// Most MB of the recording, to within some 4 MB: then it takes no further sample; the run goes on, and its verdict is added at
     /// the end.
     #[arg(long, value_name = "MB", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..))]
     recording_limit_mb: u32,

@@ -95,7 +95,7 @@ pub enum ExcitationError {
     Dynamics(#[from] DynamicsError),
 }
 
-/// Instants that independent noise is assumed of, per second, and at which a motion is judged. Kind: choice; what is left of efforts
+/// Instants that independent noise is assumed of, per second, and at which a motion is judged. Kind: choice; the residual of efforts
 /// resembles itself for some 100 ms.
 const INSTANTS_HZ: f64 = 10.0;
 /// Instants at which distances are measured, per second. Kind: choice.

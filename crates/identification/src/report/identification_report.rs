@@ -81,7 +81,7 @@ pub struct IdentifiedJointReport {
     pub instants: usize,
     /// Root mean square of its effort, in the unit of its terms.
     pub effort_rms: f64,
-    /// What the description leaves of the effort, root mean square.
+    /// The residual of the effort by the description, root mean square.
     pub before_rms: f64,
     /// What the identified parameters leave of it in data that they were not estimated from.
     pub after_rms: f64,

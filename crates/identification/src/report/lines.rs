@@ -101,7 +101,7 @@ fn has(joint: &IdentifiedJoint, wanted: JointUnknown) -> bool {
     joint.terms.iter().any(|(term, _)| *term == wanted)
 }
 
-/// The joints whose terms are written: one term of which stands for several is no value of it.
+/// The joints whose terms are written: a term that has the effect of several is no value of one.
 fn written_joints(identified: &IdentifiedParameters) -> impl Iterator<Item = &IdentifiedJoint> {
     let is_sum = |joint: &IdentifiedJoint| {
         let mut of = identified.indistinct.iter().filter(|of| of.joint == joint.joint);

@@ -70,7 +70,14 @@ impl Line {
     pub(super) fn parse(text: &[u8]) -> Result<Self, String> {
         let written: WrittenLine = serde_json::from_slice(text).map_err(|error| {
             // The number of the line is that in the stream, which the parser does not know.
-            error.to_string().replace(" at line 1 column ", " at column ")
+            let message = error.to_string().replace(" at line 1 column ", " at column ");
+            let has = |word: &[u8]| text.windows(word.len()).any(|part| part == word);
+            let is_unknown = has(b"NaN") || has(b"Infinity");
+            if is_unknown {
+                format!("{message}; JSON has no NaN: write null for a value that is not known")
+            } else {
+                message
+            }
         })?;
         let WrittenLine { time_s, q, v, tau, pose, origin } = written;
         let time_s = time_s.ok_or("it has no \"time_s\"")?;

@@ -215,6 +215,11 @@ impl LogStream {
         (clock.part >= part).then_some(time_s + self.shift_s)
     }
 
+    /// Instants that were left out since the last row: behind the last one, those that nobody has seen.
+    pub fn left_out_since_row(&self) -> u64 {
+        self.rows.left_out()
+    }
+
     /// What became of the messages with joint states so far.
     pub fn joint_counts(&self) -> JointRowCounts {
         self.rows.counts()

@@ -136,6 +136,11 @@ impl RowMaker {
         }
     }
 
+    /// Instants that were left out since the last row.
+    pub(super) fn left_out(&self) -> u64 {
+        self.left_out
+    }
+
     /// Makes the next row, if all joints are known by now or cannot be any more; returns whether there is one.
     pub(super) fn advance(&mut self) -> bool {
         self.give_what_waits();

@@ -19,6 +19,8 @@ pub(super) struct LimitsTrack {
     is_angular: bool,
     positions: u64,
     beyond: u64,
+    /// Of these, by more than half of the range.
+    far_beyond: u64,
     /// As degrees if the joint turns, as mm if it slides.
     beyond_in_other_unit: u64,
 }
@@ -33,6 +35,7 @@ impl LimitsTrack {
             is_angular: joint.kind.is_angular(),
             positions: 0,
             beyond: 0,
+            far_beyond: 0,
             beyond_in_other_unit: 0,
         })
     }
@@ -41,6 +44,9 @@ impl LimitsTrack {
         let is_beyond = |value: f64| value < self.range[0] - SLACK || value > self.range[1] + SLACK;
         self.positions += 1;
         self.beyond += u64::from(is_beyond(position));
+        let half_range = (self.range[1] - self.range[0]) / 2.0;
+        let is_far = position < self.range[0] - half_range || position > self.range[1] + half_range;
+        self.far_beyond += u64::from(is_far);
         let in_other_unit = if self.is_angular { position.to_radians() } else { position / 1e3 };
         self.beyond_in_other_unit += u64::from(is_beyond(in_other_unit));
     }
@@ -48,6 +54,7 @@ impl LimitsTrack {
     fn add(&mut self, other: &Self) {
         self.positions += other.positions;
         self.beyond += other.beyond;
+        self.far_beyond += other.far_beyond;
         self.beyond_in_other_unit += other.beyond_in_other_unit;
     }
 }
@@ -79,10 +86,12 @@ impl RobotLimits {
             return PositionUnit::Unknown;
         }
         let beyond = count(|track| track.beyond) / positions;
+        let far_beyond = count(|track| track.far_beyond) / positions;
         let as_degrees = count(|track| track.beyond_in_other_unit) / positions;
         match beyond {
             beyond if beyond < LEAST_SHARE => PositionUnit::Radian,
-            _ if as_degrees <= MOST_FITTING => PositionUnit::Degree,
+            // A joint that is a little beyond its limit is that, in whatever unit.
+            beyond if as_degrees <= MOST_FITTING && far_beyond >= beyond / 2.0 => PositionUnit::Degree,
             _ => PositionUnit::Neither,
         }
     }
@@ -146,6 +155,7 @@ mod tests {
                 is_angular: *is_angular,
                 positions: 0,
                 beyond: 0,
+                far_beyond: 0,
                 beyond_in_other_unit: 0,
             };
             for position in positions {

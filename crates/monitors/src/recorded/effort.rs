@@ -1,5 +1,5 @@
-//! Recorded efforts against inverse dynamics at the recorded motion: with friction, armature, a delay and a factor for each joint, what is
-//! left of their variance, and what they are: torques, torques without gravity, or currents.
+//! Recorded efforts against inverse dynamics at the recorded motion: with friction, armature, a delay and a factor for each joint, the
+//! unexplained part of their variance, and what they are: torques, torques without gravity, or currents.
 
 use congruent_identification::{EffortFit, EffortKind, RecognisedEffort, RecordedRow};
 use congruent_input::{
@@ -16,7 +16,7 @@ use crate::{
     watch::Watch,
 };
 
-/// Default limit. Kind: measured; a UR5e leaves 0.02, the worst joint of a Panda 0.3, another robot most of it.
+/// Default limit. Kind: measured; 0.02 of a UR5e, 0.3 of the worst joint of a Panda, nearly 1 of another robot.
 pub(crate) const UNEXPLAINED_SHARE: f64 = 0.5;
 
 pub(crate) struct RecordedEffortMonitor {

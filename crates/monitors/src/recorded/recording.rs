@@ -105,6 +105,8 @@ impl Monitor for RecordingMonitor {
     }
 
     fn end(&mut self, sample: &Sample<'_>) {
+        // Nobody has seen what the robot did after its last sample.
+        self.left_out += sample.left_out_after;
         self.share.observe(self.used_share(), 0, sample);
     }
 

@@ -1,4 +1,4 @@
-//! A point of the tool that is at one place whenever the arm stands, such as a ball in a hole: how far its places are apart by the model.
+//! A point of the tool that is at one place whenever the arm is at rest, such as a ball in a hole: how far its places are apart by the model.
 
 use congruent_input::{Quantity, SiUnit, display::counted};
 use congruent_scenario::SamePointCheck;
@@ -16,8 +16,8 @@ use crate::{
 pub(crate) const SPREAD_M: f64 = 2e-3;
 /// Shortest stand, s. Kind: choice.
 const STILL_S: f64 = 0.5;
-/// An arm stands if no joint moves by more in that time, rad or m. Kind: choice; some steps of a coarse encoder.
-const STANDS: f64 = 1e-3;
+/// An arm is at rest if no joint moves by more in that time, rad or m. Kind: choice; some steps of a coarse encoder.
+const AT_REST: f64 = 1e-3;
 /// Places that are kept. Kind: bound of memory.
 const MOST_PLACES: usize = 10_000;
 
@@ -69,7 +69,7 @@ impl Monitor for SamePointMonitor {
         let q = sample.joints.measured.q;
         let tcp_m = (sample.model[self.tip].to_isometry() * self.tip_from_tcp).translation.vector;
         let moves =
-            |stand: &Stand| stand.q.iter().zip(q.iter()).any(|(before, now)| (now - before).abs() > STANDS);
+            |stand: &Stand| stand.q.iter().zip(q.iter()).any(|(before, now)| (now - before).abs() > AT_REST);
         if sample.since_s.is_none() || self.stand.as_ref().is_some_and(moves) {
             self.end_stand();
         }

@@ -5,8 +5,8 @@ use std::path::Path;
 use congruent_description::{LinkIndex, RobotDescription, RobotQ};
 use congruent_dynamics::BodyTree;
 use congruent_identification::{
-    EffortKind, FreeGroup, FreeUnknowns, IdentifiedParameters, PayloadPlace, RecognisedEffort,
-    RecordedEquations, identify, recognise,
+    EffortKind, FreeGroup, FreeUnknowns, IdentifiedParameters, Instants, PayloadPlace, RecognisedEffort,
+    RecordedEquations, RecordingSurvey, identify, recognise,
     report::{IdentificationParts, IdentificationReport, edited_text, identification_report},
 };
 use congruent_input::{Capability, Diagnostic, Findings, display::number, known_names};
@@ -56,36 +56,10 @@ pub fn identify_log(
         return Err(error.with_help("torque constants are of currents: --effort current, or neither").into());
     }
     let efforts = RecordedEfforts::open(draft.scenario, description)?;
-    if !efforts.has_efforts {
-        return Err(no_efforts());
-    }
-    let no_motion = |why: &str, help: &str| {
-        let error = Diagnostic::error(codes::identify::MOTION, format!("{}: {why}", log.display()));
-        Findings::from(error.with_help(help.to_owned()))
-    };
-    // At rest, whatever averages noise is as good.
-    let half_window_s = request.half_window_s.or(request.is_still.then_some(STILL_HALF_WINDOW_S));
-    let survey = efforts.survey(half_window_s)?;
-    let survey = survey.ok_or_else(|| {
-        no_motion("too few rows lie within a window for velocities and accelerations", LONGER)
-    })?;
-    let equations = efforts.equations(&tree, &survey, request.is_still)?;
-    if equations.instants == 0 {
-        return Err(if request.is_still {
-            no_motion(
-                "the robot is never at rest for a window",
-                "leave out --still: in motion, all parameters show",
-            )
-        } else {
-            no_motion(
-                "no joint moves faster than the noise of its position",
-                "efforts at rest show masses: --still",
-            )
-        });
-    }
+    let (survey, equations) = read(&efforts, &tree, request, log)?;
     let (equations, recognised, kind) = as_torques(equations, request, &given)?;
     let identified = identify(&equations, &free)
-        .ok_or_else(|| no_motion("no joint has an effort while it moves", LONGER))?;
+        .ok_or_else(|| no_motion(log, "no joint has an effort while it moves", LONGER))?;
     let report = identification_report(&IdentificationParts {
         description,
         log: &log.display().to_string(),
@@ -102,6 +76,51 @@ pub fn identify_log(
     });
     let edited = edited(description, &identified);
     Ok(IdentifiedLog { report, edited, taken: draft.taken })
+}
+
+/// How the joints of a log move, and its equations.
+fn read(
+    efforts: &RecordedEfforts,
+    tree: &BodyTree,
+    request: &IdentifyRequest,
+    log: &Path,
+) -> Result<(RecordingSurvey, RecordedEquations), Findings> {
+    if !efforts.has_efforts {
+        return Err(no_efforts());
+    }
+    // At rest, whatever averages noise is as good.
+    let half_window_s = request.half_window_s.or(request.is_still.then_some(STILL_HALF_WINDOW_S));
+    let survey = efforts.survey(half_window_s)?;
+    let survey = survey.ok_or_else(|| {
+        no_motion(log, "too few rows lie within a window for velocities and accelerations", LONGER)
+    })?;
+    let instants = if request.is_still {
+        Instants::Still(survey.still_speeds())
+    } else {
+        Instants::Moving(survey.moving_speeds())
+    };
+    let equations = efforts.equations(tree, &survey, instants)?;
+    if equations.instants == 0 {
+        return Err(if request.is_still {
+            no_motion(
+                log,
+                "the robot is never at rest for a window",
+                "leave out --still: in motion, all parameters show",
+            )
+        } else {
+            no_motion(
+                log,
+                "no joint moves faster than the noise of its position",
+                "efforts at rest show masses: --still",
+            )
+        });
+    }
+    Ok((survey, equations))
+}
+
+fn no_motion(log: &Path, why: &str, help: &str) -> Findings {
+    let error = Diagnostic::error(codes::identify::MOTION, format!("{}: {why}", log.display()));
+    error.with_help(help.to_owned()).into()
 }
 
 fn no_efforts() -> Findings {

@@ -80,13 +80,8 @@ impl RecordedEfforts {
         &self,
         tree: &BodyTree,
         survey: &RecordingSurvey,
-        is_still: bool,
+        instants: Instants,
     ) -> Result<RecordedEquations, Findings> {
-        let instants = if is_still {
-            Instants::Still(survey.still_speeds())
-        } else {
-            Instants::Moving(survey.moving_speeds())
-        };
         let mut collector = Collector::new(tree, survey.smoothing, instants, self.from_s, self.duration_s);
         self.read(|event| match event {
             RowOrBreak::Row(row) => collector.push(row).map_err(|error| unreadable(&error.to_string())),

@@ -49,7 +49,7 @@ pub enum Check {
     Power(PowerCheck),
     /// How much of a log could be used.
     Recording(RecordingCheck),
-    /// A point of the tool that is at one place whenever the arm stands.
+    /// A point of the tool that is at one place whenever the arm is at rest.
     SamePoint(SamePointCheck),
     /// A jump of one joint's zero, as recorded poses show it.
     Step(StepCheck),

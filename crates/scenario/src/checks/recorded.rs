@@ -69,7 +69,7 @@ pub struct StepCheck {
     pub on_violation: OnViolation,
 }
 
-/// A point of the tool that is at one place whenever the arm stands, such as a ball in a hole.
+/// A point of the tool that is at one place whenever the arm is at rest, such as a ball in a hole.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SamePointCheck {
@@ -79,7 +79,7 @@ pub struct SamePointCheck {
     /// The same in millimetres.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub spread_mm: Option<f64>,
-    /// Shortest time for which the arm stands at a place; default: 0.5 s.
+    /// Shortest time for which the arm is at rest at a place; default: 0.5 s.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub still_s: Option<f64>,
     /// What the run does at the first violation of the check.

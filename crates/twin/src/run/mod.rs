@@ -338,6 +338,7 @@ impl<'a> Run<'a> {
             time_s: self.time_s,
             since_s: self.since_s,
             left_out: self.source.left_out(),
+            left_out_after: self.source.left_out_after(),
             interruption: self.interruption(),
             motions_s,
             change: self.change,

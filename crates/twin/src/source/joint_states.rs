@@ -69,6 +69,11 @@ pub trait JointStateSource {
         0
     }
 
+    /// Instants that the source has left out after the present sample, if no sample follows.
+    fn left_out_after(&self) -> u64 {
+        0
+    }
+
     /// Whether the present sample begins another part of what was recorded: its time from the sample before means nothing.
     fn begins_part(&self) -> bool {
         false

@@ -186,6 +186,10 @@ impl<'a> RecordedSource<'a> {
         // Joints that the log does not have stay where they are.
         let held = next.qd.iter_mut().zip(&self.is_recorded).filter(|(_, is_recorded)| !**is_recorded);
         held.for_each(|(qd, _)| *qd = 0.0);
+        // A follower that the log does not have moves with its master.
+        self.robot.apply_mimic_to_speeds(&mut next.qd);
+        let recorded = next.qd.iter_mut().zip(&row.qd).zip(&self.is_recorded);
+        recorded.filter(|(_, is_recorded)| **is_recorded).for_each(|((qd, of_log), _)| *qd = *of_log);
         next.recorded_effort.copy_from_slice(&row.effort);
         let torques = next.effort.iter_mut().zip(&row.effort).zip(&self.is_torque);
         torques.for_each(|((torque, recorded), is_torque)| {
@@ -295,6 +299,10 @@ impl JointStateSource for RecordedSource<'_> {
 
     fn left_out(&self) -> u64 {
         self.now.left_out
+    }
+
+    fn left_out_after(&self) -> u64 {
+        if self.has_next { 0 } else { self.stream.left_out_since_row() }
     }
 
     fn begins_part(&self) -> bool {
