@@ -244,6 +244,25 @@ def test_a_killed_driver_is_stale_until_it_comes_back(watch: Any, driver: Any, l
     assert levels[:2] == ["STALE", "OK"] and len(levels) >= 4, printed
 
 
+def test_a_joint_that_has_lost_its_value_makes_the_checks_stale() -> None:
+    from congruent.ros2._statuses import Statuses
+
+    statuses = Statuses("ur5e", ["elbow_joint", "wrist_1_joint"], "/joint_states", 1.0, 0.0)
+    statuses.arrived(["elbow_joint", "wrist_1_joint"], 0.0)
+    statuses.judged({"kind": "started", "checks": ["limits"], "rate_hz": 100.0, "poses": []}, 0.1)
+
+    def levels(now_s: float) -> dict[str, tuple[Level, str]]:
+        return {status.name.rpartition(": ")[2]: (status.level, status.message) for status in statuses.all(now_s)}
+
+    assert levels(0.5)["limits"][0] is Level.OK
+    statuses.arrived(["elbow_joint"], 2.0)
+    lost = levels(2.0)
+    assert lost["joint states"] == (Level.WARN, "no value of wrist_1_joint for 2.0 s: nothing is judged without it")
+    assert lost["limits"][0] is Level.STALE
+    statuses.arrived(["elbow_joint", "wrist_1_joint"], 2.5)
+    assert levels(2.6)["joint states"][0] is Level.OK and levels(2.6)["limits"][0] is Level.OK
+
+
 def test_what_the_judge_says_is_said() -> None:
     """Lines of ``congruent watch`` that the stand-in does not say."""
     from congruent.ros2._statuses import Statuses

@@ -41,6 +41,7 @@ class Statuses:
     def __init__(self, robot: str, joints: list[str], topic: str, stale_after_s: float, now_s: float) -> None:
         self._robot, self._topic, self._stale_after_s = robot, topic, stale_after_s
         self._missing = list(joints)
+        self._value_s: dict[str, float] = {}
         self._started_s, self._arrived_s = now_s, float("-inf")
         self._messages, self._counted, self._counted_s, self._rate_hz = 0, 0, now_s, 0.0
         kinds: tuple[str, ...] = ("malformed messages", "messages without positions", "gaps", "samples lost", "lines refused", "left out")
@@ -56,6 +57,7 @@ class Statuses:
         """Positions of these joints have arrived."""
         self._messages += 1
         self._arrived_s = now_s
+        self._value_s.update(dict.fromkeys(joints, now_s))
         if self._missing:
             self._missing = [joint for joint in self._missing if joint not in joints]
 
@@ -120,8 +122,10 @@ class Statuses:
         """All statuses. What was fine is stale if no joint states arrive; what was violated remains so."""
         joints = self._joint_states(now_s)
         checks = {}
+        # Without one joint, no sample is judged.
+        is_blind = joints.level is Level.STALE or bool(self._lost(now_s))
         for name, check in self._checks.items():
-            is_stale = joints.level is Level.STALE and check.level is Level.OK
+            is_stale = is_blind and check.level is Level.OK
             checks[name] = _Check(Level.STALE, f"{joints.message}; before: {check.message}", check.values) if is_stale else check
         found = {"joint states": joints, "judge": self._judge, **checks}
         if self._description is not None:
@@ -142,6 +146,10 @@ class Statuses:
                 values[kind] = f"{notes.count}, the last: {notes.last}"
         return _Check(*self._level(age_s, now_s), values)
 
+    def _lost(self, now_s: float) -> list[str]:
+        """Joints that have had a value, and have none any more."""
+        return [joint for joint, at_s in self._value_s.items() if now_s - at_s > self._stale_after_s]
+
     def _level(self, age_s: float, now_s: float) -> tuple[Level, str]:
         if not self._messages:
             who = {0: "nobody publishes it", 1: "its publisher sends none"}.get(self.publishers, "its publishers send none")
@@ -150,6 +158,9 @@ class Statuses:
             return Level.STALE, f"no joint states on {self._topic} yet, after {now_s - self._started_s:.1f} s: {reason}"
         if age_s > self._stale_after_s:
             return Level.STALE, f"no joint states on {self._topic} for {age_s:.1f} s"
+        if lost := self._lost(now_s):
+            age_s = now_s - min(self._value_s[joint] for joint in lost)
+            return Level.WARN, f"no value of {', '.join(lost)} for {age_s:.1f} s: nothing is judged without it"
         recent = [f"{kind}: {notes.last}" for kind, notes in self._notes.items() if now_s - notes.at_s < WARNING_S and kind != OTHERS]
         if recent:
             return Level.WARN, "; ".join(recent)
