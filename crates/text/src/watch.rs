@@ -54,15 +54,22 @@ pub fn watch_text(line: &WatchLine) -> String {
     }
 }
 
+/// How a line begins that says what of the stream is not judged, and why.
+const LEFT_OUT: &str = "left out: ";
+
 fn started(start: &WatchStart) -> String {
-    let WatchStart { source, robot, joints, rate_hz, checks, .. } = start;
+    let WatchStart { source, robot, joints, rate_hz, checks, taken, .. } = start;
     let rate = rate_hz.map_or_else(String::new, |rate| format!(" at {}", quantity(rate, "Hz")));
     let checks: Vec<&str> = checks.iter().map(|check| check.word()).collect();
-    format!(
+    let mut text = format!(
         "watching {source}: {robot}, {}{rate}; checks: {}\n",
         counted(joints.len(), "joint"),
         if checks.is_empty() { "none".to_owned() } else { listed(&checks) }
-    )
+    );
+    for left_out in taken.iter().filter_map(|line| line.strip_prefix(LEFT_OUT)) {
+        let _ = writeln!(text, "  not judged: {left_out}");
+    }
+    text
 }
 
 fn changed(word: &str, change: &CheckChange) -> String {

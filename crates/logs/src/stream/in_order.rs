@@ -12,50 +12,54 @@ pub(super) const SPAN_S: f64 = 0.25;
 
 /// A message at a time.
 #[derive(Debug)]
-struct Timed<T> {
+struct Timed<P, T> {
     time_s: f64,
+    part: P,
     /// Number of the message: of two at one time the first stays first.
     number: u64,
     value: T,
 }
 
-impl<T> PartialEq for Timed<T> {
+impl<P, T> PartialEq for Timed<P, T> {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
 
-impl<T> Eq for Timed<T> {}
+impl<P, T> Eq for Timed<P, T> {}
 
-impl<T> PartialOrd for Timed<T> {
+impl<P, T> PartialOrd for Timed<P, T> {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl<T> Ord for Timed<T> {
+impl<P, T> Ord for Timed<P, T> {
     fn cmp(&self, other: &Self) -> Ordering {
         // The earliest is the greatest, since a heap gives its greatest.
         other.time_s.total_cmp(&self.time_s).then(other.number.cmp(&self.number))
     }
 }
 
-/// Messages of one topic, of which the earliest are given once enough later ones have come.
+/// Messages of one topic, of which the earliest are given once enough later ones have come. Each has a part of what there is at its time,
+/// such as some of the joints.
 #[derive(Debug)]
-pub(super) struct InOrder<T> {
-    heap: BinaryHeap<Timed<T>>,
+pub(super) struct InOrder<P, T> {
+    heap: BinaryHeap<Timed<P, T>>,
     ready: VecDeque<(f64, T)>,
     number: u64,
     newest_s: f64,
     given_s: f64,
+    /// The parts that were given at that time.
+    given: Vec<P>,
     /// Messages that are held back at most.
     window: usize,
-    /// Messages at a time that another message has, and messages that came after a later one was given.
+    /// Messages with a part that another message at their time has, and messages that came after a later one was given.
     pub(super) repeated: u64,
     pub(super) late: u64,
 }
 
-impl<T> Default for InOrder<T> {
+impl<P: PartialEq, T> Default for InOrder<P, T> {
     fn default() -> Self {
         Self {
             heap: BinaryHeap::with_capacity(WINDOW + 1),
@@ -63,6 +67,7 @@ impl<T> Default for InOrder<T> {
             number: 0,
             newest_s: f64::NEG_INFINITY,
             given_s: f64::NEG_INFINITY,
+            given: Vec::new(),
             window: WINDOW,
             repeated: 0,
             late: 0,
@@ -70,16 +75,16 @@ impl<T> Default for InOrder<T> {
     }
 }
 
-impl<T> InOrder<T> {
+impl<P: PartialEq, T> InOrder<P, T> {
     /// Gives each message at once: one that is earlier than one before it is late.
     pub(super) fn at_once() -> Self {
         Self { window: 0, ..Self::default() }
     }
 
-    pub(super) fn push(&mut self, time_s: f64, value: T) {
+    pub(super) fn push(&mut self, time_s: f64, part: P, value: T) {
         self.number += 1;
         self.newest_s = self.newest_s.max(time_s);
-        self.heap.push(Timed { time_s, number: self.number, value });
+        self.heap.push(Timed { time_s, part, number: self.number, value });
         while self.heap.len() > self.window || self.span_s() > SPAN_S {
             self.give_first();
         }
@@ -103,18 +108,27 @@ impl<T> InOrder<T> {
     }
 
     fn give_first(&mut self) {
-        let Some(Timed { time_s, value, .. }) = self.heap.pop() else { return };
+        let Some(Timed { time_s, part, value, .. }) = self.heap.pop() else { return };
         match time_s.total_cmp(&self.given_s) {
-            Ordering::Less => self.late += 1,
-            Ordering::Equal => self.repeated += 1,
+            Ordering::Less => {
+                self.late += 1;
+                return;
+            }
+            Ordering::Equal if self.given.contains(&part) => {
+                self.repeated += 1;
+                return;
+            }
+            Ordering::Equal => {}
             Ordering::Greater => {
                 self.given_s = time_s;
-                self.ready.push_back((time_s, value));
+                self.given.clear();
             }
         }
+        self.given.push(part);
+        self.ready.push_back((time_s, value));
     }
 
-    /// The next message, later than all before it.
+    /// The next message: later than all before it, or another part of the same time.
     pub(super) fn pop(&mut self) -> Option<(f64, T)> {
         self.ready.pop_front()
     }
@@ -129,7 +143,7 @@ mod tests {
         let mut order = InOrder::default();
         let times: Vec<i32> = (0..200).map(|at| at + if at % 7 == 0 { 5 } else { 0 }).collect();
         for (number, &time) in times.iter().enumerate() {
-            order.push(f64::from(time) * 1e-3, number);
+            order.push(f64::from(time) * 1e-3, (), number);
         }
         order.flush();
         let given: Vec<(f64, usize)> = std::iter::from_fn(|| order.pop()).collect();
@@ -144,7 +158,7 @@ mod tests {
     fn a_stream_has_its_messages_at_once() {
         let mut order = InOrder::at_once();
         let mut given = |time_s: f64| {
-            order.push(time_s, ());
+            order.push(time_s, (), ());
             order.pop().is_some()
         };
         assert!(given(1.0) && given(1.001) && !given(1.0) && given(1.002));
@@ -154,8 +168,8 @@ mod tests {
     #[test]
     fn a_message_that_comes_too_late_is_counted() {
         let mut order = InOrder::default();
-        (0..100).for_each(|at| order.push(f64::from(at) * 1e-3, at));
-        order.push(3.5e-3, 100);
+        (0..100).for_each(|at| order.push(f64::from(at) * 1e-3, (), at));
+        order.push(3.5e-3, (), 100);
         order.flush();
         assert_eq!((std::iter::from_fn(|| order.pop()).count(), order.late), (100, 1));
     }

@@ -30,7 +30,10 @@ pub(super) struct JointTrace {
 
 impl JointTrace {
     pub(super) fn push(&mut self, time_s: f64, state: SeriesPoint) {
-        self.points.push_back((time_s, state));
+        // Of two states at one time the first counts.
+        if self.points.back().is_none_or(|(last_s, _)| *last_s < time_s) {
+            self.points.push_back((time_s, state));
+        }
     }
 
     /// Whether there is a state at or after a time.

@@ -18,7 +18,8 @@ const WAITS_S: f64 = 2.0;
 #[derive(Debug)]
 struct Topic {
     selected: SelectedJoints,
-    messages: InOrder<LoggedJoints>,
+    /// By the names of their joints: a driver may publish some of them in one message, and the others in another of the same time.
+    messages: InOrder<Arc<[String]>, LoggedJoints>,
     /// The list of names of the last message, and where the joints that are taken are in it.
     names: Option<Arc<[String]>>,
     places: Vec<Option<usize>>,
@@ -100,7 +101,7 @@ impl RowMaker {
             self.counts.wrong_lengths += 1;
             return;
         }
-        self.topics[selection].messages.push(time_s, message);
+        self.topics[selection].messages.push(time_s, Arc::clone(&message.names), message);
         self.sort(selection);
     }
 
@@ -129,7 +130,9 @@ impl RowMaker {
                 has_position = true;
                 series[joint.joint].push(time_s, state);
             }
-            if selection == 0 {
+            #[expect(clippy::float_cmp, reason = "times of messages of one instant are equal")]
+            let is_same = self.pending.back().is_some_and(|(pending_s, _)| *pending_s == time_s);
+            if selection == 0 && !is_same {
                 self.pending.push_back((time_s, message.time));
             }
             self.counts.without_positions += u64::from(!has_position);
@@ -209,8 +212,9 @@ impl RowMaker {
 
     /// What became of the messages.
     pub(super) fn counts(&self) -> JointRowCounts {
-        let sum =
-            |of: fn(&InOrder<LoggedJoints>) -> u64| self.topics.iter().map(|topic| of(&topic.messages)).sum();
+        let sum = |of: fn(&InOrder<Arc<[String]>, LoggedJoints>) -> u64| {
+            self.topics.iter().map(|topic| of(&topic.messages)).sum()
+        };
         JointRowCounts { repeated: sum(|of| of.repeated), late: sum(|of| of.late), ..self.counts }
     }
 }

@@ -48,6 +48,24 @@ fn all(rows: &mut RowMaker) -> Vec<(f64, Vec<f64>)> {
 }
 
 #[test]
+fn joints_in_two_messages_of_one_time_make_one_row() {
+    let mut rows = rows(vec![topic("a", 0.05, &[("one", 0), ("two", 1)])]);
+    for step in 0..5_u32 {
+        let time_s = f64::from(step) * 0.01;
+        rows.take(0, time_s, message(&["one"], &[time_s]));
+        rows.take(0, time_s, message(&["two"], &[2.0 * time_s]));
+        // Published again.
+        rows.take(0, time_s, message(&["two"], &[9.0]));
+    }
+    let found = all(&mut rows);
+    assert_eq!(found.len(), 5, "{found:?}");
+    assert!(
+        found.iter().all(|(time_s, q)| (q[0] - time_s).abs() + (q[1] - 2.0 * time_s).abs() < 1e-12),
+        "{found:?}"
+    );
+}
+
+#[test]
 fn a_joint_that_messages_lack_is_interpolated_and_unknown_in_a_gap() {
     let mut rows = rows(vec![topic("a", 0.05, &[("one", 0), ("two", 1)])]);
     for step in 0..20_u32 {
