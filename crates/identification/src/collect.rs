@@ -1,5 +1,7 @@
 //! From the rows of a recording to the equations of its joints.
 
+use std::sync::Arc;
+
 use congruent_description::RobotQ;
 use congruent_dynamics::{BodyTree, DynamicsError};
 
@@ -21,8 +23,8 @@ pub struct RecordedRow<'a> {
 }
 
 impl RecordedRow<'_> {
-    pub(crate) fn kept(&self) -> KeptRow {
-        KeptRow { time_s: self.time_s, q: self.q.clone(), effort: self.effort.to_vec() }
+    pub(crate) fn kept(&self) -> Arc<KeptRow> {
+        Arc::new(KeptRow { time_s: self.time_s, q: self.q.clone(), effort: self.effort.to_vec() })
     }
 }
 
@@ -45,13 +47,10 @@ pub struct Collector<'a> {
     /// First instant and length of the recording, s.
     from_s: f64,
     duration_s: f64,
-    last_q: Option<RobotQ>,
 }
 
 /// Numbers that are larger are no efforts of a robot; their squares would not be numbers. N m or N; kind: choice.
 pub(crate) const LARGEST: f64 = 1e12;
-/// A joint that turns or shifts by more from one row to the next has been counted anew, as an angle from pi to -pi. rad or m; kind: choice.
-const JUMP: f64 = 3.0;
 
 impl<'a> Collector<'a> {
     /// For a recording of this length.
@@ -63,15 +62,7 @@ impl<'a> Collector<'a> {
         duration_s: f64,
     ) -> Self {
         let (maker, equations) = ColumnMaker::new(tree);
-        Self {
-            window: SmoothingWindow::new(smoothing),
-            maker,
-            equations,
-            instants,
-            from_s,
-            duration_s,
-            last_q: None,
-        }
+        Self { window: SmoothingWindow::new(smoothing), maker, equations, instants, from_s, duration_s }
     }
 
     /// Ends a part: what follows is not connected with the rows so far.
@@ -84,15 +75,8 @@ impl<'a> Collector<'a> {
     /// # Errors
     /// The row is another robot's.
     pub fn push(&mut self, row: RecordedRow<'_>) -> Result<(), DynamicsError> {
-        if self.last_q.as_ref().is_some_and(|last| jumps(last, row.q)) {
-            self.break_here();
-        }
-        match &mut self.last_q {
-            Some(last) => last.copy_from_slice(row.q),
-            None => self.last_q = Some(row.q.clone()),
-        }
         let mut outcome = Ok(());
-        let Self { window, maker, equations, instants, from_s, duration_s, .. } = self;
+        let Self { window, maker, equations, instants, from_s, duration_s } = self;
         window.push(row.kept(), |instant| {
             let block = block(instant.time_s - *from_s, *duration_s);
             if outcome.is_ok() {
@@ -106,11 +90,6 @@ impl<'a> Collector<'a> {
     pub fn finish(self) -> RecordedEquations {
         self.equations
     }
-}
-
-/// Whether a joint was counted anew between two rows.
-pub(crate) fn jumps(before: &RobotQ, after: &RobotQ) -> bool {
-    before.iter().zip(after.iter()).any(|(before, after)| (after - before).abs() > JUMP)
 }
 
 /// The block of a time since the beginning.

@@ -1,5 +1,7 @@
 //! What efforts are, while the samples come: without a column for each parameter, so that a check of a run can have it.
 
+use std::sync::Arc;
+
 use congruent_dynamics::{BodyTree, DynamicsBuffer, JointMotionState};
 use nalgebra::{DMatrix, DVector};
 
@@ -66,8 +68,9 @@ impl EffortFit {
     /// Adds a sample, later than those before it.
     pub fn push(&mut self, row: RecordedRow<'_>) {
         let Self { tree, buffer, windows, effort } = self;
+        let row = row.kept();
         for (window, joints) in windows {
-            window.push(row.kept(), |instant| {
+            window.push(Arc::clone(&row), |instant| {
                 // A row of another length cannot come: samples are the robot's.
                 if effort.fill(tree, buffer, instant).is_some() {
                     add(tree, instant, effort, joints);

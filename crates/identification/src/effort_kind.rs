@@ -142,10 +142,11 @@ impl Tried {
             let is_left_out = |block: usize| is_in_fold(block, fold, FOLDS);
             let (known, _) = small(&|block| !is_left_out(block));
             let (tested, _) = small(&is_left_out);
-            for (left, solution) in left.iter_mut().zip(solutions(&known)) {
-                *left += (solution.dot(&(&tested * &solution))).max(0.0) / variance;
+            let solutions = solutions(&known);
+            for (left, solution) in left.iter_mut().zip(&solutions) {
+                *left += (solution.dot(&(&tested * solution))).max(0.0) / variance;
             }
-            factors.push(1.0 / solutions(&known)[2][RIGID]);
+            factors.push(1.0 / solutions[2][RIGID]);
         }
         Some(Self { left, factor: known_factor(&factors) })
     }

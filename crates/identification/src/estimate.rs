@@ -68,6 +68,7 @@ const ROUNDS: usize = 4;
 const AT_FIRST: f64 = 1e-4;
 /// The residual is at least this part of the effort: rounding in the sums of squares. No unit; kind: rounding.
 const LEAST_LEFT: f64 = 1e-7;
+
 /// The estimate from some of the blocks. `None` if no joint has rows.
 pub(crate) fn estimate(
     equations: &RecordedEquations,
@@ -91,21 +92,22 @@ pub(crate) fn estimate(
             alike: 1.0,
         })
         .collect();
-    let mut change = DVector::zeros(problem.free.len());
-    let mut sum = problem.sum(&sums, &noise);
+    let mut solved = None;
     for _ in 0..ROUNDS {
-        sum = problem.sum(&sums, &noise);
-        change = sum.smallest(&problem.bounds)?;
+        let sum = problem.sum(&sums, &noise);
+        let change = sum.smallest(&problem.bounds)?;
         let x = problem.x(&change);
         for (row, joint) in equations.joints.iter().enumerate() {
             let least = LEAST_LEFT * effort(&sums[row], joint);
             noise[row] = problem.noise(row, &x, &sums[row], least);
         }
+        solved = Some((sum, x));
     }
+    let (sum, x) = solved?;
     let covariance = BalancedCholesky::new(sum.information.clone())?.inverse();
     let known_combinations = problem.known_combinations(&sum);
     Some(ParameterEstimate {
-        x: problem.x(&change),
+        x,
         free: problem.free,
         covariance,
         held: problem.held,

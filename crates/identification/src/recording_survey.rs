@@ -1,7 +1,9 @@
 //! What has to be known of a recording before its equations are made: the window, and how fast the joints move.
 
+use std::sync::Arc;
+
 use crate::{
-    collect::{RecordedRow, jumps},
+    collect::RecordedRow,
     smoothing::{KeptRow, SmoothedInstant, Smoothing, SmoothingWindow},
 };
 
@@ -25,7 +27,7 @@ const MOVES: f64 = 0.01;
 pub struct SampledParts {
     from_s: f64,
     period_s: f64,
-    parts: Vec<Vec<KeptRow>>,
+    parts: Vec<Vec<Arc<KeptRow>>>,
     is_connected: bool,
 }
 
@@ -50,10 +52,6 @@ impl SampledParts {
         if !self.is_connected {
             self.parts.push(Vec::new());
             self.is_connected = true;
-        }
-        let is_anew = |part: &Vec<KeptRow>| part.last().is_some_and(|last| jumps(&last.q, row.q));
-        if self.parts.last().is_some_and(is_anew) {
-            self.parts.push(Vec::new());
         }
         if let Some(part) = self.parts.last_mut() {
             part.push(row.kept());
@@ -98,7 +96,7 @@ impl SampledParts {
         for part in &self.parts {
             let mut window = SmoothingWindow::new(smoothing);
             for row in part {
-                window.push(row.clone(), |instant| {
+                window.push(Arc::clone(row), |instant| {
                     speeds.resize(instant.qd.len(), Vec::new());
                     speeds.iter_mut().zip(&instant.qd).for_each(|(speeds, qd)| speeds.push(qd.abs()));
                     means.resize(instant.qd.len(), MeanSquares::default());

@@ -1,6 +1,6 @@
 //! Positions, velocities, accelerations and efforts at one instant, from the rows around it.
 
-use std::collections::VecDeque;
+use std::{collections::VecDeque, sync::Arc};
 
 use congruent_description::RobotQ;
 use nalgebra::{Matrix5, Vector5};
@@ -66,7 +66,7 @@ struct DerivativeWeights {
 
 impl Smoothing {
     /// Windows for rows at these times, from the shortest one that always has enough rows.
-    pub(crate) fn candidates(parts: &[Vec<KeptRow>]) -> Vec<Self> {
+    pub(crate) fn candidates(parts: &[Vec<Arc<KeptRow>>]) -> Vec<Self> {
         let mut periods: Vec<f64> = parts
             .iter()
             .flat_map(|part| part.windows(2).map(|pair| pair[1].time_s - pair[0].time_s))
@@ -142,11 +142,19 @@ impl Polynomial {
     }
 }
 
+/// A joint that turns or shifts by more from one row to the next has been counted anew, as an angle from pi to -pi. rad or m; kind: choice.
+const JUMP: f64 = 3.0;
+
+fn jumps(before: &RobotQ, after: &RobotQ) -> bool {
+    before.iter().zip(after.iter()).any(|(before, after)| (after - before).abs() > JUMP)
+}
+
 /// Rows around the next instant.
 #[derive(Debug)]
 pub(crate) struct SmoothingWindow {
     smoothing: Smoothing,
-    rows: VecDeque<KeptRow>,
+    /// Shared with windows of other lengths.
+    rows: VecDeque<Arc<KeptRow>>,
     /// The middle of the next window, s.
     next_s: Option<f64>,
 }
@@ -163,7 +171,12 @@ impl SmoothingWindow {
     }
 
     /// Adds a row, and gives each instant whose window is complete to `each`: one every half of a half window.
-    pub(crate) fn push(&mut self, row: KeptRow, mut each: impl FnMut(&SmoothedInstant)) {
+    ///
+    /// A row at which a joint was counted anew is not connected with those before.
+    pub(crate) fn push(&mut self, row: Arc<KeptRow>, mut each: impl FnMut(&SmoothedInstant)) {
+        if self.rows.back().is_some_and(|last| jumps(&last.q, &row.q)) {
+            self.break_here();
+        }
         let h = self.smoothing.half_window_s;
         let newest_s = row.time_s;
         let mut next_s = *self.next_s.get_or_insert(newest_s + h);
