@@ -5,6 +5,7 @@ use congruent_input::Diagnostic;
 use congruent_kinematics::random_configurations;
 
 use crate::{
+    camera::{CameraMount, may_be_seen},
     chain::NominalChain,
     codes,
     computed::{Computed, measurement},
@@ -36,8 +37,8 @@ pub fn needed_coordinates(description: &RobotDescription) -> Result<Vec<usize>, 
 /// Estimates the free corrections of a robot from measurements.
 ///
 /// # Errors
-/// The robot has no chain, a named correction is unknown, none is free, or more configurations are requested than there are
-/// candidates.
+/// The robot has no chain, a named correction is unknown, none is free, more configurations are requested than there are
+/// candidates, or a row of a camera in the hand has no point.
 pub fn calibrate(
     description: &RobotDescription,
     rows: &[MeasuredRow],
@@ -49,9 +50,11 @@ pub fn calibrate(
             "ask for at most {CANDIDATES}: they are chosen from that many random configurations"
         )));
     }
+    may_be_seen(rows, options.camera)?;
     let nominal = NominalChain::new(description)?;
     let parameters = free::parameters(&nominal, &options.free, &options.hold)?;
-    let measurements: Vec<Measurement> = rows.iter().map(|row| measurement(&nominal, row)).collect();
+    let measurements: Vec<Measurement> =
+        rows.iter().map(|row| measurement(&nominal, row, options.camera)).collect();
     let at_nominal = CorrectedChain::new(nominal.chain.clone(), parameters);
     let chain = align(&at_nominal, &measurements, options.threshold);
     let problem = Problem { chain: &chain, measurements: &measurements };
@@ -83,7 +86,10 @@ pub fn calibrate(
     let is_noise_known = redundancy > 0 || options.noise.is_some();
     // Without redundancy the residuals are zero, and so would be the noise: every gain would be infinite.
     let noise = if is_noise_known { best.noise } else { ordinary_noise(&problem) };
-    let next = most_informative(&problem, &best.corrections, &noise, &in_chain, options.suggestions);
+    // Where a camera in the hand sees the target at other configurations is not known.
+    let is_in_hand = options.camera == Some(CameraMount::EyeInHand);
+    let suggestions = if is_in_hand { 0 } else { options.suggestions };
+    let next = most_informative(&problem, &best.corrections, &noise, &in_chain, suggestions);
     let computed = Computed {
         description,
         options,

@@ -28,6 +28,8 @@ congruent_input::codes! {
             "A measured position does not have two or three coordinates, or a coordinate is not a distance. Give x, y and z, or x and y for a planar measurement.\n    wrong: \"translation_m\": [0.9]\n    right: \"translation_m\": [0.9, 0.01]";
         ORIENTATION = "CGR-TABLE-023", "measurements::orientation",
             "A measured orientation is incomplete, is given twice, or is not a rotation. Give a quaternion of norm 1, or roll, pitch and yaw, not both.\n    wrong: x_m,y_m,z_m,roll_deg\n    right: x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg";
+        SEEN_POINT = "CGR-TABLE-030", "measurements::seen_point",
+            "A camera on the robot saw a target, and a row does not give all three coordinates of the target in the frame of the camera. A row then places no point. Give x, y and z, with or without an orientation, or leave the row out.\n    wrong: joint_1_deg,x_m,y_m\n    right: joint_1_deg,x_m,y_m,z_m";
     }
     calibrate {
         ROBOT = "CGR-COMMAND-020", "calibrate::robot",

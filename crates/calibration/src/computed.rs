@@ -1,8 +1,10 @@
 //! All results of a calibration, as the input of the report.
 
 use congruent_description::{RobotDescription, RobotQ};
+use nalgebra::Matrix3;
 
 use crate::{
+    camera::{CameraMount, camera_from_target},
     chain::NominalChain,
     estimation::{
         CalibrationFit, CorrectedChain, HeldOut, Identification, Measurement, RobustFit, Suggestion,
@@ -33,11 +35,29 @@ pub(crate) struct Computed<'a> {
 }
 
 /// A measured row as a measurement of the chain.
-pub(crate) fn measurement(nominal: &NominalChain<'_>, row: &MeasuredRow) -> Measurement {
-    Measurement {
-        q: nominal.chain_positions(&row.q),
-        tip_in_base_m: row.tip_in_base_m,
-        base_from_tip: row.orientation.map(|orientation| orientation.base_from_tip()),
+///
+/// A camera in the hand turns it around: where the chain and the row together place the target, it must be in every row, so the
+/// target is the origin of the frame of the measurements.
+pub(crate) fn measurement(
+    nominal: &NominalChain<'_>,
+    row: &MeasuredRow,
+    camera: Option<CameraMount>,
+) -> Measurement {
+    let q = nominal.chain_positions(&row.q);
+    let in_hand = camera.filter(|mount| *mount == CameraMount::EyeInHand);
+    match in_hand.and_then(|_| camera_from_target(row)) {
+        Some(seen) => Measurement {
+            q,
+            tip_in_base_m: [Some(0.0); 3],
+            base_from_tip: row.orientation.map(|_| Matrix3::identity()),
+            camera_from_target: Some(seen),
+        },
+        None => Measurement {
+            q,
+            tip_in_base_m: row.tip_in_base_m,
+            base_from_tip: row.orientation.map(|orientation| orientation.base_from_tip()),
+            camera_from_target: None,
+        },
     }
 }
 

@@ -5,6 +5,7 @@
 //! [`corrected_robot`] is the robot with the recommended corrections, [`check_measured`] compares without fitting the arm.
 
 mod calibrate;
+mod camera;
 mod chain;
 pub mod codes;
 mod computed;
@@ -18,6 +19,7 @@ pub mod report;
 pub mod same_point;
 
 pub use calibrate::{calibrate, needed_coordinates};
+pub use camera::{CAMERA_GROUPS, CameraFrames, CameraMount, FrameOnLink};
 pub use corrected::{CorrectedRobot, corrected_robot};
 pub use estimation::{Loss, Noise};
 pub use free::GROUPS;

@@ -8,16 +8,17 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::{
+    camera::{CameraFrames, CameraMount, may_be_seen, measured_frame},
     chain::NominalChain,
     codes,
     computed::measurement,
     estimation::{
-        CorrectedChain, Loss, Measurement, ParameterUnit, PoseResidual, Problem, align, fit_robustly,
-        fit_with_estimated_noise, identify,
+        CorrectedChain, Displacements, Loss, Measurement, ParameterUnit, PoseResidual, Problem, align,
+        fit_robustly, fit_with_estimated_noise, identify,
     },
     free,
     measurements::MeasuredRow,
-    report::{CalibratedModel, ResidualSummary, assemble::summary},
+    report::{CalibratedModel, ResidualSummary, assemble::summary, tip_from_measured},
 };
 
 /// Options of a comparison with measurements.
@@ -27,6 +28,8 @@ pub struct MeasuredCheckOptions {
     pub tolerance: RequestedTolerance,
     /// Corrections of base and tool that are fitted before, by group or name; none by default.
     pub free: Vec<String>,
+    /// Where the camera is, if one measured the rows: then `base` and `tool` are the poses of camera and target.
+    pub camera: Option<CameraMount>,
     /// Smallest singular value of the fitted corrections over the largest of all. No unit.
     pub threshold: f64,
 }
@@ -44,7 +47,7 @@ pub struct MeasuredCheck {
     pub chain: ReportedChain,
     /// The model that is compared.
     pub model: CalibratedModel,
-    /// The frame whose pose was measured: a link's name, or `tcp`.
+    /// The frame whose pose was measured: a link's name, `tcp`, or `target` if a camera measured it.
     pub measured_frame: String,
     /// Whether every row is within the tolerance.
     pub verdict: MeasuredVerdict,
@@ -64,6 +67,9 @@ pub struct MeasuredCheck {
     pub fitted: Vec<FittedCorrection>,
     /// Every row.
     pub row_differences: Vec<MeasuredDifference>,
+    /// Camera and target as they were fitted; left out if no camera measured the rows.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub camera: Option<CameraFrames>,
     /// Warnings about the input.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<Finding>,
@@ -122,8 +128,10 @@ pub fn check_measured(
     rows: &[MeasuredRow],
     options: &MeasuredCheckOptions,
 ) -> Result<MeasuredCheck, Diagnostic> {
+    may_be_seen(rows, options.camera)?;
     let nominal = NominalChain::new(description)?;
-    let measured: Vec<Measurement> = rows.iter().map(|row| measurement(&nominal, row)).collect();
+    let measured: Vec<Measurement> =
+        rows.iter().map(|row| measurement(&nominal, row, options.camera)).collect();
     judged_parts(&measured, options.tolerance)?;
     let chain = of_frames(&nominal, options)?;
     let (corrections, kept) = fitted(&chain, &measured, options.threshold)?;
@@ -137,12 +145,16 @@ pub fn check_measured(
     let worst =
         *worst.ok_or_else(|| Diagnostic::error(codes::measurements::NONE, "there is no measurement"))?;
     let rows_beyond = row_differences.iter().filter(|row| row.is_beyond).count();
-    let tip = &description.robot.link(description.tip).name;
     let fitted = chain.parameters().iter().enumerate().map(|(at, parameter)| FittedCorrection {
         name: parameter.name.clone(),
         unit: parameter.unit(),
         value: corrections[at],
         is_identified: kept.contains(&at),
+    });
+    let camera = options.camera.map(|mount| {
+        let moved = Displacements::new(&chain, &corrections);
+        let tool = tip_from_measured(description, &nominal, &moved);
+        CameraFrames::new(description, mount, rows, [&moved.base, &tool])
     });
     Ok(MeasuredCheck {
         robot: description.name.clone(),
@@ -150,7 +162,7 @@ pub fn check_measured(
         measurements: measurements.display().to_string(),
         chain: description.reported_chain(),
         model: if nominal.table.is_some() { CalibratedModel::Dh } else { CalibratedModel::Urdf },
-        measured_frame: if description.tip_from_tcp.is_some() { "tcp".to_owned() } else { tip.clone() },
+        measured_frame: measured_frame(description, options.camera),
         verdict: if rows_beyond == 0 { MeasuredVerdict::Agree } else { MeasuredVerdict::Disagree },
         tolerance: options.tolerance,
         rows: rows.len(),
@@ -160,6 +172,7 @@ pub fn check_measured(
         worst_q: JointValues::for_movable_joints(&description.robot, &rows[worst.row - 1].q),
         fitted: fitted.collect(),
         row_differences,
+        camera,
         warnings: description.warnings.iter().map(Finding::from).collect(),
     })
 }

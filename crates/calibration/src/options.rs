@@ -1,6 +1,9 @@
 //! Options of a calibration.
 
-use crate::estimation::{Loss, Noise};
+use crate::{
+    camera::CameraMount,
+    estimation::{Loss, Noise},
+};
 
 /// Options of a calibration: free corrections, loss, noise, suggestions.
 #[derive(Debug, Clone, PartialEq)]
@@ -9,6 +12,8 @@ pub struct CalibrationOptions {
     pub free: Vec<String>,
     /// Groups and names of corrections that are held at nominal even if `free` names them.
     pub hold: Vec<String>,
+    /// Where the camera is, if one measured the rows: then `base` and `tool` are the poses of camera and target.
+    pub camera: Option<CameraMount>,
     /// The loss of the robust estimate.
     pub loss: Loss,
     /// Smallest singular value of the estimated corrections over the largest of all. No unit.
@@ -28,6 +33,7 @@ impl Default for CalibrationOptions {
         Self {
             free: vec!["zero-offsets".to_owned()],
             hold: Vec::new(),
+            camera: None,
             loss: Loss::Tukey,
             threshold: 1e-3,
             noise: None,

@@ -63,6 +63,7 @@ fn measured(chain: &CorrectedChain, truth: &[f64], rows: u32) -> Vec<Measurement
             q,
             tip_in_base_m: pose.translation.map(Some).into(),
             base_from_tip: Some(pose.rotation),
+            camera_from_target: None,
         }
     };
     spread(rows).into_iter().map(measurement).collect()

@@ -48,7 +48,12 @@ fn figures(count: usize) -> impl Strategy<Value = Vec<f64>> {
 
 fn measured(chain: &CorrectedChain, p: &[f64], q: ChainQ) -> Measurement {
     let pose = chain.base_from_tip(&q, p);
-    Measurement { q, tip_in_base_m: pose.translation.map(Some).into(), base_from_tip: Some(pose.rotation) }
+    Measurement {
+        q,
+        tip_in_base_m: pose.translation.map(Some).into(),
+        base_from_tip: Some(pose.rotation),
+        camera_from_target: None,
+    }
 }
 
 /// Deterministic configurations without a random generator: a lattice of irrational steps.

@@ -40,6 +40,7 @@ fn rows(place: impl Fn([f64; 2]) -> [f64; 3]) -> Vec<MeasuredRow> {
 
 fn check(rows: &[MeasuredRow], most_m: Option<f64>, free: &[&str]) -> Result<MeasuredCheck, Diagnostic> {
     let options = MeasuredCheckOptions {
+        camera: None,
         tolerance: RequestedTolerance { position_m: most_m, orientation_rad: None },
         free: free.iter().map(|&word| word.to_owned()).collect(),
         threshold: 1e-3,

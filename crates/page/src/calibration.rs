@@ -19,6 +19,7 @@ use congruent_input::{
 use congruent_writers::dh_section;
 use maud::{Markup, html};
 
+use crate::camera::camera_section;
 use crate::parts::{
     BadgeKind, Pointer, Provenance, UnitColumn, badge, capitalised, count, document, provenance, value,
     warnings,
@@ -51,6 +52,7 @@ pub fn calibration_page(
     let body = html! {
         (header(report, description))
         (corrections(report))
+        (camera_section(report.camera.as_ref()))
         (to_paste(report, description))
         (drawing(report))
         (residuals(report))

@@ -5,6 +5,7 @@
 
 mod assets;
 mod calibration;
+mod camera;
 mod check;
 mod index;
 mod parts;

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use congruent_calibration::CameraFrames;
 use congruent_calibration::report::{
     CalibratedFiles, CalibrationReport, EstimatedFrames, Recommendation, WrittenModel,
 };
@@ -106,6 +107,9 @@ fn not_taken_over(text: &mut String, left_out: &[String]) {
 
 /// Base and tool with which the corrections of the arm are right.
 pub(crate) fn frames_text(text: &mut String, report: &CalibrationReport) {
+    if let Some(camera) = &report.camera {
+        camera_text(text, camera, "camera and target as estimated");
+    }
     let Some(EstimatedFrames { measured_from_base, tip_from_measured }) = &report.frames else { return };
     let _ = writeln!(text, "\n  frames with which the corrections of the arm are right");
     let (base, tip) = (&report.chain.base, &report.chain.tip);
@@ -115,6 +119,26 @@ pub(crate) fn frames_text(text: &mut String, report: &CalibrationReport) {
     if let Some(pose) = tip_from_measured {
         let _ = writeln!(text, "  measured frame in {tip}  {}", pose_in_words(pose));
     }
+}
+
+/// Below the title, where camera and target are, and the camera as a fixed joint of a URDF.
+pub fn camera_text(text: &mut String, frames: &CameraFrames, title: &str) {
+    let _ = writeln!(text, "\n  {title}");
+    for (what, frame) in [("camera", &frames.camera), ("target", &frames.target)] {
+        let pose = pose_in_words(&frame.link_from_frame);
+        // Points place a target without turning it.
+        let is_turned = what == "camera" || frames.has_orientation;
+        let pose = if is_turned { &pose } else { pose.split(", rpy_deg").next().unwrap_or(&pose) };
+        let _ = writeln!(text, "  {what} in {}  {pose}", frame.link);
+    }
+    let pose = &frames.camera.link_from_frame;
+    let list = |values: [f64; 3]| values.map(|value| format!("{value:.6}")).join(" ");
+    let (xyz, rpy) = (list(pose.translation_m), list(pose.rpy_rad()));
+    let _ = writeln!(
+        text,
+        "  camera in {} as in a URDF  <origin xyz=\"{xyz}\" rpy=\"{rpy}\"/>",
+        frames.camera.link
+    );
 }
 
 /// As a robot file may have it.
@@ -148,6 +172,9 @@ pub(crate) fn written_text(text: &mut String, written: Option<&CalibratedFiles>,
     if let Some(base) = &written.base_link {
         let _ =
             writeln!(text, "  base: link \"{base}\", the frame of the measurements, fixed to {}", chain.base);
+    }
+    if let Some(camera) = &written.camera_link {
+        let _ = writeln!(text, "  camera: link \"{camera}\" of the URDF");
     }
     if written.has_corrected_tcp {
         let _ = writeln!(text, "  tool: key tcp of the robot file, in {}", chain.tip);

@@ -110,7 +110,8 @@ fn fits(text: &mut String, report: &CalibrationReport) {
     };
     line("nominal", &report.nominal, None);
     if let Some(aligned) = &report.aligned {
-        line("base and tool", &aligned.residuals, None);
+        let frames = if report.camera.is_some() { "camera and target" } else { "base and tool" };
+        line(frames, &aligned.residuals, None);
     }
     line("least squares", &report.least_squares.residuals, Some(&report.least_squares));
     line(&report.loss.to_string(), &report.robust.residuals, Some(&report.robust));

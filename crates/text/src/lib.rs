@@ -29,7 +29,7 @@ pub use arm::{
     joint_dynamics_text_parts, manipulability_text_parts, sensitivity_text, workspace_text,
 };
 pub use base_parameters::base_parameters_text;
-pub use calibrated_robot::{calibrated_robot_comments, same_point_robot_comments};
+pub use calibrated_robot::{calibrated_robot_comments, camera_text, same_point_robot_comments};
 pub use calibration::calibration_text;
 pub use conversion::{conversion_comments, conversion_remarks, conversion_text};
 pub use description::{description_text, joint_orders_text};

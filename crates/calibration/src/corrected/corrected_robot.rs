@@ -9,9 +9,10 @@ use nalgebra::Isometry3;
 
 use super::{
     table,
-    tree::{corrected_tree, is_unchanged, with_measuring_frame},
+    tree::{corrected_tree, is_unchanged, with_frame},
 };
 use crate::{
+    camera::{CAMERA_GROUPS, FrameOnLink},
     chain::NominalChain,
     codes,
     estimation::{CorrectedChain, Displacements},
@@ -20,6 +21,9 @@ use crate::{
     report::{CalibrationReport, Recommendation},
 };
 
+/// Link names of the frame in which the rows were measured, and of a camera.
+const MEASURING_FRAME: &str = "measuring_frame";
+const CAMERA: &str = "camera";
 /// Random configurations of a comparison, in addition to zero, single joints and limits.
 const RANDOM_CONFIGURATIONS: usize = 100;
 
@@ -40,6 +44,8 @@ pub struct CorrectedRobot {
     pub measured_from_base: Option<Pose>,
     /// Whether the tool centre point is another than that of the nominal robot file.
     pub has_other_tool: bool,
+    /// The link of the camera that measured the rows, if one did.
+    pub camera_link: Option<String>,
 }
 
 /// The robot of a description with the recommended corrections of its calibration, with the same `options`; `None` if the report
@@ -54,8 +60,14 @@ pub fn corrected_robot(
     options: &CalibrationOptions,
     report: &CalibrationReport,
 ) -> Result<Option<CorrectedRobot>, Diagnostic> {
-    let Some(values) = recommended(report) else { return Ok(None) };
-    robot_with(description, [&options.free, &options.hold], &values).map(Some)
+    let Some(mut values) = recommended(report) else { return Ok(None) };
+    let Some(frames) = &report.camera else {
+        return robot_with(description, [&options.free, &options.hold], &values).map(Some);
+    };
+    // Base and tool are the poses of camera and target here, which are none of the arm.
+    values.retain(|name, _| !CAMERA_GROUPS.iter().any(|group| name.split('.').next() == Some(group)));
+    let corrected = robot_with(description, [&options.free, &options.hold], &values)?;
+    Ok(Some(with_camera(corrected, &frames.camera)))
 }
 
 /// The robot with these corrections by name, which are among those that are free and not held; the others are 0.
@@ -78,7 +90,7 @@ pub(crate) fn robot_with(
     let base_name = &description.robot.link(description.base).name;
     let measured_from_base = Some(moved.base).filter(|pose| *pose != Pose::identity());
     let (robot, base) = match &measured_from_base {
-        Some(pose) => with_measuring_frame(&tree.robot, base_name, pose),
+        Some(pose) => with_frame(&tree.robot, base_name, MEASURING_FRAME, &pose.inverse()),
         None => (tree.robot, base_name.clone()),
     };
     let screws = moved.screws(&nominal.chain);
@@ -107,7 +119,17 @@ pub(crate) fn robot_with(
         beyond_the_table: beyond_the_table.unwrap_or_default(),
         measured_from_base,
         has_other_tool,
+        camera_link: None,
     })
+}
+
+/// The robot with a link for the camera where it was estimated.
+fn with_camera(corrected: CorrectedRobot, camera: &FrameOnLink) -> CorrectedRobot {
+    let description = &corrected.description;
+    let pose = Pose::from(&camera.link_from_frame);
+    let (robot, name) = with_frame(&description.robot, &camera.link, CAMERA, &pose);
+    let base = &description.robot.link(description.base).name;
+    CorrectedRobot { description: in_robot(description, robot, base), camera_link: Some(name), ..corrected }
 }
 
 /// The corrections of the recommended estimate, and those that are held, by name.

@@ -13,8 +13,6 @@ use crate::{chain::NominalChain, codes, estimation::Displacements};
 /// A pose that is nearer to the written one is that one: the file then keeps its digits. Kind: rounding of a dozen products within
 /// 2 m, m and rad; `check` compares with 1e-12.
 const UNCHANGED: f64 = 1e-14;
-/// The link of the frame in which the rows were measured.
-const MEASURING_FRAME: &str = "measuring_frame";
 
 /// The nominal tree with the corrections of the arm, and the pose that its tip has at zero.
 pub(super) struct CorrectedTree {
@@ -107,15 +105,14 @@ fn other_motion(joint: &str) -> Diagnostic {
         .with_help("`congruent check` says how the two differ: correct that first, then calibrate")
 }
 
-/// The tree with a link for the frame in which the rows were measured, and the name of that link.
+/// The tree with a frame as a link of its own, and the name that it has there.
 ///
-/// It hangs on link `base`, and the root stays: gravity and the links of the arm remain where they are.
-pub(super) fn with_measuring_frame(robot: &Robot, base: &str, measured_from_base: &Pose) -> (Robot, String) {
-    let mut name = MEASURING_FRAME.to_owned();
+/// It hangs on the link, and the root stays: gravity and the links of the arm remain where they are.
+pub(super) fn with_frame(robot: &Robot, link: &str, name: &str, link_from_frame: &Pose) -> (Robot, String) {
+    let mut name = name.to_owned();
     while robot.find_link(&name).is_some() {
         name.push('_');
     }
-    let link = Link { name: name.clone(), ..Link::default() };
-    let base_from_measured = measured_from_base.inverse().to_isometry();
-    (robot.with_fixed_link(base, base_from_measured, link), name)
+    let frame = Link { name: name.clone(), ..Link::default() };
+    (robot.with_fixed_link(link, link_from_frame.to_isometry(), frame), name)
 }

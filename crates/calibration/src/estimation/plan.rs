@@ -119,6 +119,7 @@ fn like_at(like: &Measurement, q: &ChainQ, expected: Pose) -> Measurement {
         q: q.clone(),
         tip_in_base_m,
         base_from_tip: like.base_from_tip.and(Some(expected.rotation)),
+        camera_from_target: like.camera_from_target,
     }
 }
 

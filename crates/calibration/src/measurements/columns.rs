@@ -8,6 +8,14 @@ use congruent_input::{
 
 use crate::codes;
 
+/// Names of the measured quantities, those with a unit without it.
+const POSITION: [&str; 3] = ["x", "y", "z"];
+const RPY: [&str; 3] = ["roll", "pitch", "yaw"];
+const ROTATION_VECTOR: [&str; 3] = ["rx", "ry", "rz"];
+/// Those that need a unit in the name of their column.
+const WITH_UNIT: [[&str; 3]; 3] = [POSITION, RPY, ROTATION_VECTOR];
+const QUATERNION: [&str; 4] = ["qw", "qx", "qy", "qz"];
+
 /// The quantity in a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum MeasuredQuantity {
@@ -19,6 +27,8 @@ pub(super) enum MeasuredQuantity {
     Quaternion(usize),
     /// Roll, pitch or yaw of the orientation.
     Rpy(usize),
+    /// Component x, y or z of the orientation as a rotation vector.
+    RotationVector(usize),
 }
 
 /// A column with the conversion of its values to SI.
@@ -40,20 +50,20 @@ impl MeasurementColumn {
     /// # Errors
     /// The name is neither a joint nor a measured quantity, or its unit does not fit.
     pub(super) fn parse(name: &str, robot: &Robot) -> Result<Self, Diagnostic> {
-        if let Some(at) = ["qw", "qx", "qy", "qz"].iter().position(|known| *known == name) {
+        if let Some(at) = QUATERNION.iter().position(|known| *known == name) {
             return Ok(Self { quantity: MeasuredQuantity::Quaternion(at), unit: None });
         }
         let Some((stem, suffix)) = WrittenUnit::split(name) else { return Err(without_unit(name, robot)) };
         let (unit, written) = (suffix.unit, Some(suffix));
         let joint = robot.find_joint(stem).and_then(|joint| Some((joint, robot.coordinate(joint)?)));
         let measured = match unit {
-            Unit::Length => {
-                ["x", "y", "z"].iter().position(|known| *known == stem).map(MeasuredQuantity::Position)
-            }
+            Unit::Length => POSITION.iter().position(|known| *known == stem).map(MeasuredQuantity::Position),
             // Joints have such names, too; an orientation can be given as a quaternion.
             Unit::Angle if joint.is_some() => None,
             Unit::Angle => {
-                ["roll", "pitch", "yaw"].iter().position(|known| *known == stem).map(MeasuredQuantity::Rpy)
+                let of = |names: [&str; 3]| names.into_iter().position(|known| known == stem);
+                let rpy = of(RPY).map(MeasuredQuantity::Rpy);
+                rpy.or_else(|| of(ROTATION_VECTOR).map(MeasuredQuantity::RotationVector))
             }
         };
         if let Some(quantity) = measured {
@@ -73,8 +83,7 @@ impl MeasurementColumn {
 }
 
 fn without_unit(name: &str, robot: &Robot) -> Diagnostic {
-    let is_known =
-        robot.find_joint(name).is_some() || ["x", "y", "z", "roll", "pitch", "yaw"].contains(&name);
+    let is_known = robot.find_joint(name).is_some() || WITH_UNIT.as_flattened().contains(&name);
     if !is_known {
         return unknown(name, name, robot);
     }
@@ -88,13 +97,14 @@ fn unknown(name: &str, stem: &str, robot: &Robot) -> Diagnostic {
         return Diagnostic::error(codes::measurements::UNKNOWN_COLUMN, message)
             .with_help("separate columns with commas, and write decimals with a point");
     }
-    let joints: Vec<&str> = robot.movable_joint_names().collect();
-    let known = joints.into_iter().chain(["x", "y", "z", "qw", "qx", "qy", "qz", "roll", "pitch", "yaw"]);
+    let mut known: Vec<&str> = robot.movable_joint_names().collect();
+    known.extend(QUATERNION);
+    known.extend(WITH_UNIT.concat());
     let message =
         format!("column \"{name}\" is neither a joint of robot \"{}\" nor a measured quantity", robot.name());
     Diagnostic::error(codes::measurements::UNKNOWN_COLUMN, message).with_help(known_names(
         stem,
         "columns (with _rad, _deg, _m or _mm)",
-        known.collect::<Vec<_>>(),
+        known,
     ))
 }

@@ -70,7 +70,8 @@ fn columns(header: &Header, robot: &Robot, needed: &[usize]) -> Result<Vec<Measu
     let positions = (0..3).filter(|&at| has(MeasuredQuantity::Position(at))).count();
     let quaternion = (0..4).filter(|&at| has(MeasuredQuantity::Quaternion(at))).count();
     let rpy = (0..3).filter(|&at| has(MeasuredQuantity::Rpy(at))).count();
-    if positions == 0 && quaternion == 0 && rpy == 0 {
+    let vector = (0..3).filter(|&at| has(MeasuredQuantity::RotationVector(at))).count();
+    if positions + quaternion + rpy + vector == 0 {
         faults.push(
             Diagnostic::error(
                 codes::measurements::NOTHING_MEASURED,
@@ -79,13 +80,14 @@ fn columns(header: &Header, robot: &Robot, needed: &[usize]) -> Result<Vec<Measu
             .with_help("add x_m, y_m, z_m (or _mm), and qw, qx, qy, qz if the orientation was measured"),
         );
     }
-    if ![0, 4].contains(&quaternion) || ![0, 3].contains(&rpy) || (quaternion > 0 && rpy > 0) {
+    let written = [(quaternion, 4), (rpy, 3), (vector, 3)].into_iter().filter(|(count, _)| *count > 0);
+    if written.clone().count() > 1 || written.clone().any(|(count, all)| count < all) {
         faults.push(
             Diagnostic::error(
                 codes::measurements::ORIENTATION,
                 "the orientation is incomplete or given twice",
             )
-            .with_help("give all of qw, qx, qy, qz, or all of roll, pitch, yaw, or none of them"),
+            .with_help("give all of qw, qx, qy, qz, or all of roll, pitch, yaw, or all of rx, ry, rz, or none of them"),
         );
     }
     let placed = |fault: Diagnostic| fault.at(header.row.span.clone());
@@ -104,7 +106,7 @@ fn row(
         tip_in_base_m: [None; 3],
         orientation: None,
     };
-    let (mut quaternion, mut rpy) = ([None; 4], [None; 3]);
+    let (mut quaternion, mut rpy, mut vector) = ([None; 4], [None; 3], [None; 3]);
     for (at, (column, cell)) in columns.iter().zip(&record.cells).enumerate() {
         let beyond = |what| {
             header.fault(codes::measurements::NUMBER, record, at, &format!("\"{}\" {what}", cell.text))
@@ -122,29 +124,27 @@ fn row(
             MeasuredQuantity::Position(at) => row.tip_in_base_m[at] = value,
             MeasuredQuantity::Quaternion(at) => quaternion[at] = value,
             MeasuredQuantity::Rpy(at) => rpy[at] = value,
+            MeasuredQuantity::RotationVector(at) => vector[at] = value,
         }
     }
     // Mimic joints need no column: they follow from their masters.
     robot.apply_mimic(&mut row.q);
     let fault = |message: String| record.fault(codes::measurements::ORIENTATION, &message);
-    row.orientation = match (complete(quaternion), complete(rpy)) {
-        (Some(Ok(quaternion)), _) => {
-            Some(WrittenOrientation::from_quaternion_wxyz(quaternion).map_err(fault)?)
-        }
-        (None, Some(Ok(rpy))) => Some(WrittenOrientation::RpyRad(rpy)),
-        (None, None) => None,
-        (Some(Err(())), _) | (None, Some(Err(()))) => {
-            return Err(fault("the orientation is incomplete".to_owned()));
-        }
-    };
+    let incomplete = || fault("the orientation is incomplete".to_owned());
+    let quaternion = complete(quaternion).map_err(|()| incomplete())?;
+    let rpy = complete(rpy).map_err(|()| incomplete())?.map(WrittenOrientation::RpyRad);
+    let vector = complete(vector).map_err(|()| incomplete())?.map(WrittenOrientation::RotationVectorRad);
+    let quaternion = quaternion.map(WrittenOrientation::from_quaternion_wxyz).transpose().map_err(fault)?;
+    // The header has columns of one of them alone.
+    row.orientation = quaternion.or(rpy).or(vector);
     Ok(row)
 }
 
 /// All values, nothing, or a fault if some are missing.
-fn complete<const N: usize>(values: [Option<f64>; N]) -> Option<Result<[f64; N], ()>> {
+fn complete<const N: usize>(values: [Option<f64>; N]) -> Result<Option<[f64; N]>, ()> {
     match values.iter().flatten().count() {
-        0 => None,
-        count if count == N => Some(Ok(values.map(Option::unwrap_or_default))),
-        _ => Some(Err(())),
+        0 => Ok(None),
+        count if count == N => Ok(Some(values.map(Option::unwrap_or_default))),
+        _ => Err(()),
     }
 }

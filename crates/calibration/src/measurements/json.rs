@@ -32,6 +32,7 @@ struct WrittenMeasurement {
     quaternion_wxyz: Option<[f64; 4]>,
     rpy_deg: Option<[f64; 3]>,
     rpy_rad: Option<[f64; 3]>,
+    rotation_vector_rad: Option<[f64; 3]>,
 }
 
 /// Parses a whole file.
@@ -40,6 +41,25 @@ pub(super) fn parse(text: &str, robot: &Robot, needed: &[usize]) -> Result<Vec<M
     LIST.read(text, |written: WrittenMeasurement, place| {
         Ok(MeasuredRow { line: lines.line_column(place.start).0, ..row(&written, robot, needed)? })
     })
+}
+
+/// The orientation, by whichever key gives it.
+fn orientation(written: &WrittenMeasurement) -> Result<Option<WrittenOrientation>, Diagnostic> {
+    let refused = |message: String| Diagnostic::error(codes::measurements::ORIENTATION, message);
+    let degrees = |rpy: [f64; 3]| rpy.map(|value| Unit::Angle.convert(value));
+    let quaternion = written.quaternion_wxyz.map(WrittenOrientation::from_quaternion_wxyz);
+    let mut given = [
+        quaternion.transpose().map_err(refused)?,
+        written.rpy_deg.map(|rpy| WrittenOrientation::RpyRad(degrees(rpy))),
+        written.rpy_rad.map(WrittenOrientation::RpyRad),
+        written.rotation_vector_rad.map(WrittenOrientation::RotationVectorRad),
+    ]
+    .into_iter()
+    .flatten();
+    match (given.next(), given.next()) {
+        (_, Some(_)) => Err(refused("the orientation is given twice".to_owned())),
+        (one, None) => Ok(one),
+    }
 }
 
 fn row(written: &WrittenMeasurement, robot: &Robot, needed: &[usize]) -> Result<MeasuredRow, Diagnostic> {
@@ -74,23 +94,7 @@ fn row(written: &WrittenMeasurement, robot: &Robot, needed: &[usize]) -> Result<
     for (coordinate, value) in tip_in_base_m.iter_mut().zip(&translation) {
         *coordinate = Some(*value);
     }
-    let orientation = match (written.quaternion_wxyz, written.rpy_deg, written.rpy_rad) {
-        (None, None, None) => None,
-        (Some(wxyz), None, None) => {
-            let refused = |message| Diagnostic::error(codes::measurements::ORIENTATION, message);
-            Some(WrittenOrientation::from_quaternion_wxyz(wxyz).map_err(refused)?)
-        }
-        (None, Some(degrees), None) => {
-            Some(WrittenOrientation::RpyRad(degrees.map(|value| Unit::Angle.convert(value))))
-        }
-        (None, None, Some(radians)) => Some(WrittenOrientation::RpyRad(radians)),
-        _ => {
-            return Err(Diagnostic::error(
-                codes::measurements::ORIENTATION,
-                "the orientation is given twice",
-            ));
-        }
-    };
+    let orientation = orientation(written)?;
     if translation.is_empty() && orientation.is_none() {
         return Err(Diagnostic::error(
             codes::measurements::NOTHING_MEASURED,

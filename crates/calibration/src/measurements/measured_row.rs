@@ -26,6 +26,8 @@ pub enum WrittenOrientation {
     QuaternionWxyz([f64; 4]),
     /// `Rz(yaw) Ry(pitch) Rx(roll)`, rad.
     RpyRad([f64; 3]),
+    /// Axis times angle, rad, as of a controller of Universal Robots and of `OpenCV`.
+    RotationVectorRad([f64; 3]),
 }
 
 impl WrittenOrientation {
@@ -46,6 +48,7 @@ impl WrittenOrientation {
                 UnitQuaternion::new_normalize(Quaternion::new(w, x, y, z)).to_rotation_matrix().into_inner()
             }
             Self::RpyRad([roll, pitch, yaw]) => Rotation3::from_euler_angles(roll, pitch, yaw).into_inner(),
+            Self::RotationVectorRad(vector) => Rotation3::new(vector.into()).into_inner(),
         }
     }
 }

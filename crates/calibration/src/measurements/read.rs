@@ -15,9 +15,9 @@ const MOST_BYTES: u64 = 64 << 20;
 ///
 /// A file whose first character is `[` is JSON: an array of `{"q": {joint: rad or m},
 /// "translation_m": [x, y, z], "quaternion_wxyz": [w, x, y, z]}`, with `translation_mm`, `rpy_deg`,
-/// `rpy_rad` as alternatives. Anything else is CSV with a header: `<joint>_rad`, `<joint>_deg`,
+/// `rpy_rad`, `rotation_vector_rad` as alternatives. Anything else is CSV with a header: `<joint>_rad`, `<joint>_deg`,
 /// `<joint>_m` or `<joint>_mm`, then `x_m`, `y_m`, `z_m` (or `_mm`), and optionally `qw`, `qx`, `qy`, `qz`
-/// or `roll_deg`, `pitch_deg`, `yaw_deg` (or `_rad`), unless the robot has a joint of that name. A coordinate may be left out, and a measured cell
+/// or `roll_deg`, `pitch_deg`, `yaw_deg` or `rx_rad`, `ry_rad`, `rz_rad` (a rotation vector), unless the robot has a joint of that name. A coordinate may be left out, and a measured cell
 /// be empty; lines that start with `#` are comments.
 ///
 /// # Errors

@@ -19,6 +19,7 @@ use super::{
     statements,
 };
 use crate::{
+    camera::measured_frame,
     computed::Computed,
     estimation::{
         CalibrationFit, CorrectionEntry, CorrectionParameter, Measurement, Noise, PoseResidual, Problem,
@@ -34,9 +35,8 @@ const NOISE_EXCESS_SIGMAS: f64 = 4.0;
 
 /// The report of a calibration, with verdict, estimates, residuals and sentences.
 pub(crate) fn report(computed: &Computed<'_>) -> CalibrationReport {
-    let robot = &computed.description.robot;
-    let tip = &robot.link(computed.description.tip).name;
-    let measured_frame = if computed.description.tip_from_tcp.is_some() { "tcp" } else { tip };
+    let measured_frame = measured_frame(computed.description, computed.options.camera);
+    let (frames, camera) = frames(computed);
     let nothing = vec![0.0; computed.chain.parameters().len()];
     let nominal = residuals(computed, &nothing);
     let held_out = held_out(computed, &nominal);
@@ -48,7 +48,7 @@ pub(crate) fn report(computed: &Computed<'_>) -> CalibrationReport {
         robot: computed.description.name.clone(),
         chain: computed.description.reported_chain(),
         model: if computed.nominal.table.is_some() { CalibratedModel::Dh } else { CalibratedModel::Urdf },
-        measured_frame: measured_frame.to_owned(),
+        measured_frame,
         rows: computed.rows.len(),
         configurations: configurations(&computed.measurements).iter().max().map_or(0, |last| last + 1),
         components: computed.measurements.iter().map(Measurement::component_count).sum(),
@@ -59,7 +59,8 @@ pub(crate) fn report(computed: &Computed<'_>) -> CalibrationReport {
         statements: Vec::new(),
         parameters: estimates(computed),
         aligned: aligned(computed),
-        frames: frames(computed),
+        frames,
+        camera,
         fixed: computed
             .identification
             .fixed

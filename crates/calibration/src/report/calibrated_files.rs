@@ -19,6 +19,9 @@ pub struct CalibratedFiles {
     /// displaced.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub base_link: Option<String>,
+    /// The link of the camera that measured the rows; left out if none did.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub camera_link: Option<String>,
     /// Whether the key `tcp` has a corrected tool.
     pub has_corrected_tcp: bool,
     /// What the nominal robot file has and the written one has not, as its keys.

@@ -8,7 +8,10 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{calibrated_files::CalibratedFiles, frames::EstimatedFrames};
-use crate::estimation::{Loss, ParameterUnit};
+use crate::{
+    camera::CameraFrames,
+    estimation::{Loss, ParameterUnit},
+};
 
 /// The answer of `congruent calibrate`. Metres and radians throughout.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -19,7 +22,7 @@ pub struct CalibrationReport {
     pub chain: ReportedChain,
     /// The model that is corrected.
     pub model: CalibratedModel,
-    /// The frame whose pose was measured: a link's name, or `tcp`.
+    /// The frame whose pose was measured: a link's name, `tcp`, or `target` if a camera measured it.
     pub measured_frame: String,
     /// Number of measured rows.
     pub rows: usize,
@@ -44,9 +47,12 @@ pub struct CalibrationReport {
     /// Base and tool as they were aligned before the estimate, which starts there; left out if it starts at nominal.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub aligned: Option<AlignedFrames>,
-    /// Base and tool with the recommended estimate; left out if neither is displaced.
+    /// Base and tool with the recommended estimate; left out if neither is displaced, or a camera measured the rows.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub frames: Option<EstimatedFrames>,
+    /// Camera and target with the recommended estimate; left out if no camera measured the rows.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub camera: Option<CameraFrames>,
     /// The corrections that are fixed since the measurements do not identify them: at nominal, or where they were aligned.
     pub fixed: Vec<ReportedFixedParameter>,
     /// The singular values by which corrections are identified or fixed.

@@ -10,6 +10,7 @@ use super::{
     residual_size::{LARGE_CORRECTION, ReachScale, ResidualSize},
 };
 use crate::{
+    camera::{CAMERA_GROUPS, CameraMount},
     chain::{JointMotionKind, NominalChain},
     computed::measurement,
     estimation::{
@@ -87,7 +88,7 @@ pub(super) fn likely_reason(
     misfit: Misfit,
 ) -> Option<LikelyReason> {
     let mut best: Option<(String, ResidualSize)> = None;
-    for interpretation in interpretations(nominal, &options.free) {
+    for interpretation in interpretations(nominal, options) {
         let fit = interpreted_fit(nominal, rows, options, &interpretation);
         let Some(fit) = fit.filter(|fit| misfit.is_resolved_by(fit)) else { continue };
         // Later interpretations have more free corrections, which always reduce the residual a little: they must
@@ -112,7 +113,7 @@ fn interpreted_fit(
     let more = interpretation.free.iter().map(|&group| group.to_owned());
     let free: Vec<String> = options.free.iter().cloned().chain(more).collect();
     let parameters = free::parameters(nominal, &free, &options.hold).ok()?;
-    let measurements: Vec<_> = rows.iter().map(|row| measurement(nominal, row)).collect();
+    let measurements: Vec<_> = rows.iter().map(|row| measurement(nominal, row, options.camera)).collect();
     // Estimates that explain nothing converge slowly, so the median of some rows decides first.
     // Spread over the file rather than the first rows, which may be at neighbouring configurations.
     let step = measurements.len().div_ceil(SOME_ROWS).max(1);
@@ -140,8 +141,8 @@ fn interpreted_fit(
     })
 }
 
-/// `given` are the groups that the options free: of the groups named in a condition all are to be given.
-fn interpretations<'a>(nominal: &NominalChain<'a>, given: &[String]) -> Vec<Interpretation<'a>> {
+/// Of the groups that the options free and a condition names, all are to be given.
+fn interpretations<'a>(nominal: &NominalChain<'a>, options: &CalibrationOptions) -> Vec<Interpretation<'a>> {
     let plain = |condition: &str, reinterpret: Reinterpret<'a>| Interpretation {
         condition: condition.to_owned(),
         reinterpret,
@@ -161,9 +162,11 @@ fn interpretations<'a>(nominal: &NominalChain<'a>, given: &[String]) -> Vec<Inte
         plain("roll, pitch and yaw given as deg are in radians", rpy(|rpy| rpy.map(|angle| angle * DEGREES))),
         plain("roll, pitch and yaw given as rad are in degrees", rpy(|rpy| rpy.map(|angle| angle / DEGREES))),
         plain("roll, pitch and yaw are about the moving axes, in that order", moving_axes()),
-        plain("the orientations are those of the base in the tip", inverse_orientation()),
-        plain("the poses are those of the base in the tip", inverse_pose()),
+        plain("roll, pitch and yaw are a rotation vector (columns rx, ry, rz)", rotation_vectors()),
     ];
+    let [orientations, poses] = inverse_conditions(options.camera);
+    all.push(plain(orientations, inverse_orientation()));
+    all.push(plain(poses, inverse_pose()));
     for (name, &coordinate) in nominal.joint_names().into_iter().zip(&nominal.coordinates) {
         let condition = format!("{name} is positive in the opposite direction");
         all.push(Interpretation { condition, reinterpret: joints(vec![coordinate], -1.0), free: &[] });
@@ -175,11 +178,36 @@ fn interpretations<'a>(nominal: &NominalChain<'a>, given: &[String]) -> Vec<Inte
         ("the poses of base and tool are free too", &["base", "tool"]),
     ];
     all.extend(frames.map(|(condition, free)| {
-        let groups: Vec<&str> = given.iter().map(String::as_str).chain(free.iter().copied()).collect();
+        let groups: Vec<&str> = options.free.iter().map(String::as_str).chain(free.iter().copied()).collect();
         let condition = format!("{condition} (--free {})", groups.join(","));
         Interpretation { condition, reinterpret: as_it_is(), free }
     }));
+    // A camera sees the inverse pose, and neither of its frames is known.
+    all.extend(options.camera.is_none().then(|| Interpretation {
+        condition:
+            "they are poses of a target seen by a camera on the robot (--camera eye-in-hand)".to_owned(),
+        reinterpret: inverse_pose(),
+        free: &CAMERA_GROUPS,
+    }));
     all
+}
+
+/// What it means that orientations or poses are the inverse ones.
+fn inverse_conditions(camera: Option<CameraMount>) -> [&'static str; 2] {
+    match camera {
+        None => [
+            "the orientations are those of the base in the tip",
+            "the poses are those of the base in the tip",
+        ],
+        Some(CameraMount::EyeInHand) => [
+            "the orientations are those of the camera in the target",
+            "the poses are those of the camera in the target, or the camera is beside the robot (--camera eye-to-hand)",
+        ],
+        Some(CameraMount::EyeToHand) => [
+            "the orientations are those of the camera in the target",
+            "the poses are those of the camera in the target, or the camera is on the robot (--camera eye-in-hand)",
+        ],
+    }
 }
 
 fn positions<'a>(factor: f64) -> Reinterpret<'a> {
@@ -228,6 +256,16 @@ fn moving_axes<'a>() -> Reinterpret<'a> {
                 * about(Vector3::y_axis(), pitch)
                 * about(Vector3::z_axis(), yaw);
             Some(with_rotation(row, rotation.into_inner()))
+        }
+        _ => None,
+    })
+}
+
+fn rotation_vectors<'a>() -> Reinterpret<'a> {
+    Box::new(|row| match row.orientation {
+        Some(WrittenOrientation::RpyRad(vector)) => {
+            let orientation = Some(WrittenOrientation::RotationVectorRad(vector));
+            Some(MeasuredRow { orientation, ..row.clone() })
         }
         _ => None,
     })

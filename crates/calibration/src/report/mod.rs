@@ -18,3 +18,4 @@ pub use calibration_report::{
 };
 pub(crate) use fixed::reported_fixed;
 pub use frames::EstimatedFrames;
+pub(crate) use frames::tip_from_measured;

@@ -5,7 +5,8 @@ use std::fmt::Write;
 use congruent_input::display::{first_of, length, length_and_angle, number};
 
 use super::calibration_report::{
-    CalibrationReport, CalibrationVerdict, EstimatedCorrection, Recommendation, ResidualSummary, RowResidual,
+    AlignedFrames, CalibrationReport, CalibrationVerdict, EstimatedCorrection, Recommendation,
+    ResidualSummary, RowResidual,
 };
 use crate::estimation::{FEWEST_CONFIGURATIONS, ParameterUnit};
 
@@ -56,12 +57,12 @@ pub(super) fn statements(
     }
     if let Some(aligned) = &report.aligned {
         let residual = |of: &ResidualSummary| length_and_angle(of.rms_m, of.rms_rad);
-        let frames = ["base", "tool"]
-            .into_iter()
-            .filter(|frame| aligned.corrections.keys().any(|name| name.split('.').next() == Some(*frame)));
+        let frames = match report.camera {
+            Some(_) => "camera and target".to_owned(),
+            None => aligned_frames(aligned),
+        };
         statements.push(format!(
-            "{} aligned with the measurements first: alone that gives a residual of {}, from {} with the nominal model",
-            frames.collect::<Vec<_>>().join(" and "),
+            "{frames} aligned with the measurements first: alone that gives a residual of {}, from {} with the nominal model",
             residual(&aligned.residuals),
             residual(&report.nominal)
         ));
@@ -78,6 +79,12 @@ pub(super) fn statements(
         }
     }
     statements
+}
+
+fn aligned_frames(aligned: &AlignedFrames) -> String {
+    let is_aligned =
+        |frame: &str| aligned.corrections.keys().any(|name| name.split('.').next() == Some(frame));
+    ["base", "tool"].into_iter().filter(|frame| is_aligned(frame)).collect::<Vec<_>>().join(" and ")
 }
 
 fn verdict(report: &CalibrationReport, largest: Option<(&EstimatedCorrection, f64)>) -> String {

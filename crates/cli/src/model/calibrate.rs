@@ -23,6 +23,7 @@ use crate::{
     invocation,
     model::{
         calibrated_robot::{Calibrated, OutArguments},
+        camera::CameraArgument,
         same_point::SamePointArguments,
     },
     output::{file::refuse_same, page::PageArgument, plot::PlotArgument},
@@ -33,7 +34,7 @@ use crate::{
 /// Corrections of a robot's model from measured poses or points of its tip (or TCP) in the base.
 ///
 /// MEASUREMENTS is CSV with a header (`<joint>_rad` or `_deg`, then x_m, y_m, z_m or _mm, optionally qw, qx, qy,
-/// qz or roll_deg, pitch_deg, yaw_deg), or JSON: [{"q": {joint: rad}, "translation_m": [x, y, z],
+/// qz or roll_deg, pitch_deg, yaw_deg or a rotation vector rx_rad, ry_rad, rz_rad), or JSON: [{"q": {joint: rad}, "translation_m": [x, y, z],
 /// "quaternion_wxyz": [w, x, y, z]}]. Coordinates that were not measured are left out. Measurements count
 /// from 1, in the order of the file.
 ///
@@ -50,9 +51,12 @@ pub(crate) struct Arguments {
     measurements: Option<PathBuf>,
     #[command(flatten)]
     same_point: SamePointArguments,
+    #[command(flatten)]
+    camera: CameraArgument,
     /// Corrections that are estimated: zero-offsets, dh, axes, base, tool, all, or single corrections such as
     /// elbow_joint.zero, elbow_joint.a, base.yaw; may be given several times.
-    #[arg(long, value_delimiter = ',', default_value = "zero-offsets")]
+    /// Without it zero-offsets, or with --camera the poses of camera and target alone.
+    #[arg(long, value_delimiter = ',')]
     free: Vec<String>,
     /// Corrections that are held at nominal although --free names their group.
     #[arg(long, value_delimiter = ',')]
@@ -154,6 +158,14 @@ fn read_file(path: &Path) -> Option<InputFile> {
 }
 
 impl Arguments {
+    /// The free corrections by group and name.
+    fn free(&self) -> Vec<String> {
+        if self.free.is_empty() && self.camera.mount().is_none() {
+            return CalibrationOptions::default().free;
+        }
+        self.camera.free(&self.free)
+    }
+
     fn options(&self, rows: &[MeasuredRow]) -> Result<CalibrationOptions, Diagnostic> {
         let has_orientation = rows.iter().any(|row| row.orientation.is_some());
         if !(self.threshold.is_finite() && self.threshold > 0.0) {
@@ -174,8 +186,9 @@ impl Arguments {
             }
         };
         Ok(CalibrationOptions {
-            free: self.free.clone(),
+            free: self.free(),
             hold: self.hold.clone(),
+            camera: self.camera.mount(),
             loss: self.loss,
             threshold: self.threshold,
             noise,

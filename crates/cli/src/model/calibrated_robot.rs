@@ -38,7 +38,7 @@ const PROVED: f64 = 1e-9;
 pub(super) struct OutArguments {
     /// Write the robot with the recommended corrections into this folder, which is made if it does not exist: robot.toml, with
     /// the corrected table, or with screws if no table says the corrections, and a URDF with the corrected origins of its joints.
-    /// A base that was estimated is a link of its own there, a tool the key tcp. Exit code 1 if no correction is recommended.
+    /// A base that was estimated is a link of its own there, as is a camera, a tool the key tcp. Exit code 1 if no correction is recommended.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Replace robot.toml and the URDF of --out if they exist.
@@ -124,6 +124,7 @@ impl OutArguments {
             model,
             beyond_the_table: corrected.beyond_the_table.clone(),
             base_link: corrected.measured_from_base.map(|_| base.clone()),
+            camera_link: corrected.camera_link.clone(),
             has_corrected_tcp: corrected.has_other_tool,
             left_out,
             position_m: proof.position_m,

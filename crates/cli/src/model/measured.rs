@@ -20,6 +20,7 @@ use crate::{
     ci::CiArguments,
     failure::{FAILED, Failure},
     input::{AccessArguments, ChainArguments, files_of},
+    model::camera::CameraArgument,
     output::file::refuse_same,
     terminal::{print::Printer, progress::waiting},
     tolerance::ToleranceArgument,
@@ -41,6 +42,8 @@ pub(super) struct MeasuredArguments {
     /// the comparison.
     #[arg(long, value_delimiter = ',', requires = "measurements", value_name = "FRAME")]
     free: Vec<String>,
+    #[command(flatten)]
+    camera: CameraArgument,
 }
 
 /// The other options of `check` that this comparison has.
@@ -123,7 +126,8 @@ impl MeasuredArguments {
         batch.reads(&inputs)?;
         let options = MeasuredCheckOptions {
             tolerance: tolerance.requested(),
-            free: self.free.clone(),
+            free: self.camera.free(&self.free),
+            camera: self.camera.mount(),
             threshold: CalibrationOptions::default().threshold,
         };
         let compare = || check_measured(&description, file, &rows, &options);

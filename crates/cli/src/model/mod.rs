@@ -2,6 +2,7 @@
 
 pub(crate) mod calibrate;
 mod calibrated_robot;
+mod camera;
 pub(crate) mod check;
 pub(crate) mod convert;
 pub(crate) mod describe;

@@ -43,8 +43,11 @@ pub fn measured_headline(check: &MeasuredCheck) -> Headline {
     }
 }
 
-/// The frames that were fitted before the comparison: `base`, `tool`.
+/// The frames that were fitted before the comparison: `base`, `tool`, or those of a camera and its target.
 pub(crate) fn fitted_frames(check: &MeasuredCheck) -> Vec<&'static str> {
+    if check.camera.is_some() {
+        return vec!["camera", "target"];
+    }
     let has = |frame: &&str| check.fitted.iter().any(|of| of.name.split('.').next() == Some(*frame));
     ["base", "tool"].into_iter().filter(has).collect()
 }

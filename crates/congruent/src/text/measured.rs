@@ -5,7 +5,10 @@ use std::fmt::Write;
 use congruent_calibration::{FittedCorrection, MeasuredCheck, MeasuredDifference, MeasuredVerdict};
 use congruent_description::Robot;
 use congruent_input::display::length_and_angle;
-use congruent_text::layout::{column_width, wrapped};
+use congruent_text::{
+    camera_text,
+    layout::{column_width, wrapped},
+};
 
 use crate::check::{fitted_frames, measured_headline};
 
@@ -22,8 +25,11 @@ pub fn measured_text(check: &MeasuredCheck, robot: &Robot) -> String {
     fitted(&mut text, check);
     if check.verdict == MeasuredVerdict::Disagree {
         beyond(&mut text, check);
-        let free = fitted_frames(check).join(",");
-        let free = if free.is_empty() { String::new() } else { format!(",{free}") };
+        let free = match &check.camera {
+            Some(camera) => format!(" --camera {}", camera.mount),
+            None if check.fitted.is_empty() => String::new(),
+            None => format!(",{}", fitted_frames(check).join(",")),
+        };
         let _ = writeln!(
             text,
             "  what would have to change: congruent calibrate {} {} --free zero-offsets{free}",
@@ -35,6 +41,10 @@ pub fn measured_text(check: &MeasuredCheck, robot: &Robot) -> String {
 
 fn fitted(text: &mut String, check: &MeasuredCheck) {
     if check.fitted.is_empty() {
+        return;
+    }
+    if let Some(camera) = &check.camera {
+        camera_text(text, camera, "fitted before the comparison, and not compared");
         return;
     }
     let _ = writeln!(text, "\n  fitted before the comparison, and not compared");

@@ -10,6 +10,7 @@ mod free_frames;
 mod rotations;
 mod rows;
 
+use congruent_description::ChainQ;
 use congruent_kinematics::{Pose, ScrewChain};
 
 use super::{
@@ -48,17 +49,36 @@ pub fn align(chain: &CorrectedChain, measurements: &[Measurement], threshold: f6
         return chain.clone();
     }
     let nominal = chain.at(chain.start());
-    let rows: Vec<AlignmentRow<'_>> = measurements
-        .iter()
-        .map(|measured| AlignmentRow { base_from_tip: nominal.base_from_tip(&measured.q), measured })
-        .collect();
-    let Some(found) = aligned_by_closed_forms(&rows, free.which(), threshold, reach_m) else {
-        return chain.clone();
-    };
+    let found = found_in_closed_form(measurements, &free, threshold, reach_m, |q| nominal.base_from_tip(q));
+    let Some(found) = found else { return chain.clone() };
     let fitted = fitted(chain.nominal(), measurements, &free, found, threshold);
     let start = free.start(chain, &fitted);
     let aligned_m = median_size_m(&problem.residuals(&start), reach_m);
     if aligned_m <= MUCH_SMALLER * nominal_m { chain.starting_at(start) } else { chain.clone() }
+}
+
+/// Base and tool in closed form. A camera at the tip measured the target in its own frame, which is the frame of the
+/// measurements if the chain is gone through from the tip to the base.
+fn found_in_closed_form(
+    measurements: &[Measurement],
+    free: &FreeFrames,
+    threshold: f64,
+    reach_m: f64,
+    base_from_tip: impl Fn(&ChainQ) -> Pose,
+) -> Option<BaseAndTool> {
+    let which = free.which();
+    let seen: Option<Vec<Measurement>> = measurements.iter().map(Measurement::in_the_camera).collect();
+    let Some(seen) = seen else {
+        let rows = aligned_rows(measurements, base_from_tip);
+        return aligned_by_closed_forms(&rows, which, threshold, reach_m);
+    };
+    let rows = aligned_rows(&seen, |q| base_from_tip(q).inverse());
+    let found = aligned_by_closed_forms(&rows, which.reversed(), threshold, reach_m)?;
+    Some(found.reversed())
+}
+
+fn aligned_rows(measurements: &[Measurement], pose: impl Fn(&ChainQ) -> Pose) -> Vec<AlignmentRow<'_>> {
+    measurements.iter().map(|measured| AlignmentRow { base_from_tip: pose(&measured.q), measured }).collect()
 }
 
 /// Least squares of base and tool alone, over the rows that agree with the better half of them.

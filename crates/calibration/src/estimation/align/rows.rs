@@ -11,6 +11,7 @@ use crate::estimation::{
 /// A measured row with the pose of the nominal tip.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct AlignmentRow<'a> {
+    /// From the tip to the base instead, if a camera at the tip measured the row.
     pub(super) base_from_tip: Pose,
     pub(super) measured: &'a Measurement,
 }

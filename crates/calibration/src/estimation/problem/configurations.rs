@@ -12,7 +12,12 @@ const ALIKE: f64 = 1e-3;
 /// # Examples
 /// ```
 /// use congruent_calibration::estimation::{Measurement, configurations};
-/// let at = |q: f64| Measurement { q: [q].into(), tip_in_base_m: [Some(0.0); 3], base_from_tip: None };
+/// let at = |q: f64| Measurement {
+///     q: [q].into(),
+///     tip_in_base_m: [Some(0.0); 3],
+///     base_from_tip: None,
+///     camera_from_target: None,
+/// };
 /// assert_eq!(configurations(&[at(0.5), at(0.1), at(0.5001), at(0.1)]), [0, 1, 0, 1]);
 /// ```
 pub fn configurations(measurements: &[Measurement]) -> Vec<usize> {

@@ -13,6 +13,7 @@ use super::noise::Noise;
 /// | `q` | n | rad, m | joints of the chain |
 /// | `tip_in_base_m` | 3 | m | base; `None` for a coordinate that was not measured |
 /// | `base_from_tip` | 3 x 3 | 1 | orientation, if it was measured |
+/// | `camera_from_target` | SE(3) | m | what a camera at the tip saw; the two above are then of the target |
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measurement {
     /// Joint positions as the robot reported them.
@@ -21,6 +22,8 @@ pub struct Measurement {
     pub tip_in_base_m: [Option<f64>; 3],
     /// Measured orientation of the tip.
     pub base_from_tip: Option<Matrix3<f64>>,
+    /// Pose of the target that was measured, in the tip; `None` if it is the tip itself.
+    pub camera_from_target: Option<Pose>,
 }
 
 impl Measurement {
@@ -39,14 +42,39 @@ impl Measurement {
         self.position_count() + self.orientation_count()
     }
 
-    /// Residual of this measurement at a modelled pose: measured minus modelled.
+    /// The modelled pose of what was measured, for that of the tip.
+    pub fn base_from_target(&self, base_from_tip: &Pose) -> Pose {
+        self.camera_from_target.map_or(*base_from_tip, |seen| *base_from_tip * seen)
+    }
+
+    /// The point whose velocity is the derivative of the position residual, for the modelled pose of what was measured.
+    ///
+    /// A camera's target is taken where it was measured: a turn about that point does not change the distance from it, so the gradient
+    /// is the same, and turns that no row shows have exactly no effect, however far the model is off.
+    pub(in crate::estimation) fn moved_point(&self, base_from_target: &Pose) -> Vector3<f64> {
+        let measured = self.camera_from_target.map(|_| self.tip_in_base_m.map(Option::unwrap_or_default));
+        measured.map_or(base_from_target.translation, Vector3::from)
+    }
+
+    /// The pose or point of the target in the camera at the tip, as if that camera were the base; `None` if there is none.
+    pub(in crate::estimation) fn in_the_camera(&self) -> Option<Self> {
+        let seen = self.camera_from_target?;
+        Some(Self {
+            q: self.q.clone(),
+            tip_in_base_m: <[f64; 3]>::from(seen.translation).map(Some),
+            base_from_tip: self.base_from_tip.and(Some(seen.rotation)),
+            camera_from_target: None,
+        })
+    }
+
+    /// Residual of this measurement at a modelled pose of the tip: measured minus modelled.
     pub fn residual(&self, base_from_tip: &Pose) -> PoseResidual {
-        let along = |at: usize| {
-            self.tip_in_base_m[at].map_or(0.0, |measured| measured - base_from_tip.translation[at])
-        };
+        let modelled = self.base_from_target(base_from_tip);
+        let along =
+            |at: usize| self.tip_in_base_m[at].map_or(0.0, |measured| measured - modelled.translation[at]);
         let orientation_rad = self.base_from_tip.map_or(Vector3::zeros(), |measured| {
             // measured = exp([e]) modelled, so e is a rotation vector in the base, like the position residual.
-            rotation_log(&(measured * base_from_tip.rotation.transpose()))
+            rotation_log(&(measured * modelled.rotation.transpose()))
         });
         PoseResidual { position_m: Vector3::new(along(0), along(1), along(2)), orientation_rad }
     }

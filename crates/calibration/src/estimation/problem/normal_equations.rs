@@ -51,7 +51,12 @@ impl Problem<'_> {
     /// let at_zero = Pose::from_parts(Matrix3::identity(), Vector3::x());
     /// let nominal = ScrewChain { twists_in_base: vec![axis], base_from_tip_at_zero: at_zero };
     /// let chain = CorrectedChain::new(nominal.clone(), zero_offsets(&nominal, &["joint"]));
-    /// let at = |q: f64| Measurement { q: [q].into(), tip_in_base_m: [Some(0.0); 3], base_from_tip: None };
+    /// let at = |q: f64| Measurement {
+    ///     q: [q].into(),
+    ///     tip_in_base_m: [Some(0.0); 3],
+    ///     base_from_tip: None,
+    ///     camera_from_target: None,
+    /// };
     /// // The zero has an effect on x and y but not on z, and the repetition adds nothing.
     /// let measurements = [at(0.3), at(0.9), at(0.3)];
     /// assert_eq!(Problem { chain: &chain, measurements: &measurements }.redundancy(&[0]), 3);
@@ -66,10 +71,11 @@ impl Problem<'_> {
         let mut has_effect = vec![[false; 6]; configuration_of.iter().max().map_or(0, |last| last + 1)];
         for (measurement, &configuration) in self.measurements.iter().zip(&configuration_of) {
             let pose = chain.linearise(&measurement.q, &mut twists);
+            let point = measurement.moved_point(&measurement.base_from_target(&pose));
             for twist in kept.iter().map(|&at| twists[at]) {
-                // Velocity of the tip under a unit rate of the correction: v + w x p, for a twist at the origin
+                // Velocity of what is measured under a unit rate of the correction: v + w x p, for a twist at the origin
                 // of the base.
-                let velocity = twist.linear + twist.angular.cross(&pose.translation);
+                let velocity = twist.linear + twist.angular.cross(&point);
                 for at in 0..3 {
                     let is_measured = measurement.tip_in_base_m[at].is_some();
                     has_effect[configuration][at] |= is_measured && velocity[at].abs() > HAS_EFFECT;
@@ -178,10 +184,11 @@ impl<'a> Linearisation<'a> {
         for (measurement, weight) in rows {
             let pose = self.chain.linearise(&measurement.q, &mut self.twists);
             let residual = measurement.residual(&pose);
+            let point = measurement.moved_point(&measurement.base_from_target(&pose));
             cost += weight * residual.whitened_squared(noise);
             for (rate, &at) in self.rates.iter_mut().zip(self.kept) {
                 let twist = &self.twists[at];
-                *rate = twist.linear + twist.angular.cross(&pose.translation);
+                *rate = twist.linear + twist.angular.cross(&point);
             }
             let factor = weight / noise.position_m.powi(2);
             // A coordinate that was not measured gives no row; a row with residual 0 would claim that it fits.
