@@ -67,13 +67,13 @@ pub mod prelude {
     pub use congruent_agreement::compare::{Agreement, CheckOptions};
     pub use congruent_analysis::forward::Source;
     pub use congruent_description::{Robot, RobotDescription, load_robot};
-    pub use congruent_input::{Diagnostic, Findings};
+    pub use congruent_input::{Diagnostic, Findings, Override};
     pub use congruent_kinematics::{Arm, DhChain, LinkPoses, Pose, PoseError, SerialChain, UrdfTree};
     pub use congruent_monitors::verdict::Verdict;
     #[cfg(feature = "recording")]
     pub use congruent_recording::RerunFormat;
     pub use congruent_results::{Options, execute, report::RunReport};
-    pub use congruent_scenario::{Override, Scenario};
+    pub use congruent_scenario::Scenario;
     pub use congruent_twin::{Run, RunSetup};
 
     pub use crate::{RobotCheck, check, check_against, forward};

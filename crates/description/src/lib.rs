@@ -16,6 +16,7 @@ mod parameter_places;
 mod pose_rounding;
 mod revision;
 mod robot_file;
+mod set_values;
 mod srdf;
 mod tolerance_scale;
 mod toml_literal;
@@ -44,6 +45,7 @@ pub use robot_file::{
     DynamicsTable, InertialDigits, InertialFrame, InertialPlaces, InertialPoint, RobotFilePlaces, RowKey,
     TableDigits, ValuePlace, WrittenIgnore, WrittenLint, WrittenRobot, dh_text, robot_file_schema,
 };
+pub use set_values::load_robot_set;
 pub use tolerance_scale::ToleranceScale;
 pub use toml_literal::{toml_key, toml_string};
 pub use urdf::{

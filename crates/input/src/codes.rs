@@ -69,6 +69,10 @@ crate::codes! {
         HIDDEN_CHARACTER = "CGR-TOML-007", "toml::hidden_character",
             "A name has an invisible character, such as a control character or a mark of writing direction. Names are copied into every output, so it is refused. Type the name again.\n    wrong: joint = \"elbow_joint\\u200b\"\n    right: joint = \"elbow_joint\"";
     }
+    cli {
+        SET = "CGR-COMMAND-004", "cli::set",
+            "--set is not of the form KEY=VALUE, or its key is none of the file. A key is the keys of the file joined by dots; an entry of a list has its number, from 1, or its kind, name or joint. In a scenario, a key that begins with robot. is one of the robot.\n    --set controller.stiffness=500";
+    }
     transform {
         CONFLICT = "CGR-TOML-008", "transform::conflict",
             "A transform gives its rotation or its translation by two keys, such as a quaternion and angles. Keep exactly one.\n    wrong: { rpy_deg = [0, 0, 180], quaternion_wxyz = [0, 0, 0, 1] }\n    right: { rpy_deg = [0, 0, 180] }";

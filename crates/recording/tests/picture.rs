@@ -9,10 +9,9 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use congruent_input::display::length;
+use congruent_input::{Override, display::length};
 use congruent_recording::{RerunFormat, scalars};
 use congruent_results::{Options, execute, report::RunReport};
-use congruent_scenario::Override;
 use congruent_twin::RunSetup;
 use re_chunk::{
     Chunk,

@@ -5,11 +5,10 @@
 
 use std::path::{Path, PathBuf};
 
-use congruent_input::Quantity;
+use congruent_input::{Override, Quantity};
 use congruent_monitors::verdict::Status;
 use congruent_recording::{Basis, Recheck, RecordingSummary, RerunFormat, recheck, scalars, scalars_csv};
 use congruent_results::{Options, comparison::Scalars, execute};
-use congruent_scenario::Override;
 use congruent_twin::RunSetup;
 
 fn repository() -> PathBuf {

@@ -29,8 +29,4 @@ congruent_input::codes! {
         EXPECT = "CGR-SCENARIO-082", "scenario::expect",
             "The scenario expects a failure of a check that it does not have, or lists checks while it expects the verdict pass. Name kinds of the checks that the scenario has, and verdict = \"fail\".\n    wrong: checks = [\"zone\"] without a [[check]] of zones\n    right: checks = [\"agreement\"]";
     }
-    cli {
-        SET = "CGR-COMMAND-004", "cli::set",
-            "--set is not of the form KEY=VALUE with a key of the scenario.\n    --set controller.stiffness=500";
-    }
 }

@@ -46,7 +46,7 @@ pub use number::Range;
 pub use output::{OutputSettings, TrajectoryFormat};
 pub use place::{FilePlace, mark};
 pub use pose::PoseSettings;
-pub use reading::{Override, ScenarioFile, scenario_name};
+pub use reading::{ScenarioFile, robot_overrides, scenario_name};
 pub use robot::{
     CONTROLLER_KINDS, ControllerKind, ControllerSettings, JointNumbers, JointSettings, OTHERS,
     PayloadInertia, PayloadSettings, SensorSettings, VelocitySensor,

@@ -4,8 +4,8 @@
 
 use std::path::Path;
 
+use congruent_input::Override;
 use congruent_monitors::NoRecorder;
-use congruent_scenario::Override;
 use congruent_twin::{Run, RunSetup};
 
 fn hash(setup: &RunSetup) -> String {

@@ -6,14 +6,13 @@ use std::{
 };
 
 use congruent::{
-    input::{Diagnostic, FileAccess, Findings, InputFile},
+    input::{Diagnostic, FileAccess, Findings, InputFile, Override},
     recording::{RecordingSummary, RerunFormat},
     results::{
         RecordingFormat,
         files::{ComparedResults, DIGESTS, REPORT, compare_results, read_result},
         report::RunReport,
     },
-    scenario::Override,
     twin::RunSetup,
 };
 use serde_json::Value;

@@ -2,7 +2,11 @@
 
 use std::path::PathBuf;
 
-use congruent::{input::Diagnostic, page::PageFormat, results::RecordingFormat, scenario::Override};
+use congruent::{
+    input::{Diagnostic, Override},
+    page::PageFormat,
+    results::RecordingFormat,
+};
 
 use crate::{ci::CiArguments, failure::Failure, input::AccessArguments, terminal::print::Printer};
 

@@ -6,14 +6,14 @@ use std::{
 };
 
 use congruent::{
-    input::{Diagnostic, is_standard_input, not_found},
+    input::{Diagnostic, Override, is_standard_input, not_found},
     results::{
         Options,
         files::{OutputFolder, result_files},
         finished,
         report::{RunReport, TestSuite, planned_suite},
     },
-    scenario::{Override, scenario_name},
+    scenario::scenario_name,
     text::layout::visible_path,
     twin::RunSetup,
 };

@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use congruent_description::RobotDescription;
-use congruent_input::{Diagnostic, FileAccess, Findings};
+use congruent_input::{Diagnostic, FileAccess, Findings, Override};
 use congruent_live_report::{ComparedStream, WatchStart};
 use congruent_logs::{HeadRate, LiveReader, survey_head};
-use congruent_scenario::{OnViolation, Override};
+use congruent_scenario::OnViolation;
 use congruent_twin::{RunSetup, setup::RecordedSetup};
 
 use crate::{

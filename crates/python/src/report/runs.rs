@@ -6,11 +6,11 @@ use std::{
 };
 
 use congruent::{
-    input::{Diagnostic, Findings},
+    input::{Diagnostic, Findings, Override},
     page::PageFormat,
     recording::RerunFormat,
     results::{ExecuteError, Options, RecordingFormat, report::RunReport},
-    scenario::{Override, TrajectoryFormat},
+    scenario::TrajectoryFormat,
     text::{TextOptions, run_text},
     twin::RunSetup,
 };

@@ -7,8 +7,8 @@ use std::{
 };
 
 use congruent_input::{
-    Diagnostic, Diagnostics, FileAccess, Findings, SourceFile, codes::toml::UNKNOWN_KEY, direct_path,
-    is_standard_input, known_names, nearest, toml_text,
+    Diagnostic, Diagnostics, FileAccess, Findings, Override, SourceFile, codes::toml::UNKNOWN_KEY,
+    direct_path, is_standard_input, known_names, nearest, toml_text,
 };
 use serde::Deserialize;
 use toml::Spanned;
@@ -17,7 +17,6 @@ use super::{
     faults::read_fault,
     motion::read_motion,
     other_file::{refuse_folder, refuse_other_text},
-    overrides::Override,
     section::Section,
 };
 use crate::{
@@ -92,7 +91,7 @@ impl ScenarioFile {
         let mut document = toml_text::parse_document(&source.text).map_err(in_file)?;
         let places = PlaceNode::of_document(&source.text, &document);
         let set: Result<Vec<Range<usize>>, Diagnostic> =
-            overrides.iter().map(|change| change.apply(&mut document)).collect();
+            of_scenario(overrides).map(|change| change.apply(&mut document)).collect();
         let set = set.and_then(|set| set_once(overrides).map(|()| set)).map_err(in_file)?;
         let mut findings = Diagnostics::default();
         let scenario = read(Section::new(document), &mut findings);
@@ -143,6 +142,19 @@ fn is_unknown_key(finding: &Diagnostic) -> bool {
     finding.code == UNKNOWN_KEY
 }
 
+/// The key of the robot's path, and of its values: `robot.dh.row.3.d_m`.
+const ROBOT: &str = "robot";
+
+/// The overrides of values of the scenario file, without those of its robot.
+pub(super) fn of_scenario(overrides: &[Override]) -> impl Iterator<Item = &Override> {
+    overrides.iter().filter(|change| change.inside(ROBOT).is_none())
+}
+
+/// The overrides of values of the robot, as its own files have them: `dh.row.3.d_m` for `robot.dh.row.3.d_m`.
+pub fn robot_overrides(overrides: &[Override]) -> Vec<Override> {
+    overrides.iter().filter_map(|change| change.inside(ROBOT)).collect()
+}
+
 /// Refuses a key that is set twice: which of the values is meant is not known.
 fn set_once(overrides: &[Override]) -> Result<(), Diagnostic> {
     let again = overrides.iter().enumerate().find_map(|(at, change)| {
@@ -163,7 +175,7 @@ fn named_too(found: Vec<Diagnostic>, key: &str) -> Vec<Diagnostic> {
 
 /// Adds to a fault of an overridden value that it was set: the line of the file has another value.
 fn name_override(finding: Diagnostic, overrides: &[Override], set: &[Range<usize>]) -> Diagnostic {
-    let cause = overrides.iter().zip(set).find(|(_, place)| finding.span.as_ref() == Some(place));
+    let cause = of_scenario(overrides).zip(set).find(|(_, place)| finding.span.as_ref() == Some(place));
     match cause {
         // The key is not in the file: a place there would be that of another one.
         Some((change, _)) if is_unknown_key(&finding) => {

@@ -5,9 +5,7 @@ mod file;
 mod motion;
 mod name;
 mod other_file;
-mod overrides;
 mod section;
 
-pub use file::ScenarioFile;
+pub use file::{ScenarioFile, robot_overrides};
 pub use name::scenario_name;
-pub use overrides::Override;

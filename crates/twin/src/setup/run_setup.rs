@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use congruent_description::{Obstacle, RobotDescription, RobotQ, load_robot_with};
+use congruent_description::{Obstacle, RobotDescription, RobotQ, load_robot_set};
 use congruent_dynamics::JointResistance;
-use congruent_input::{Capability, Diagnostic, Diagnostics, FileAccess, Findings, InputFile};
+use congruent_input::{Capability, Diagnostic, Diagnostics, FileAccess, Findings, InputFile, Override};
 use congruent_logs::SurveyedLog;
 use congruent_monitors::{
     ActuatorLimits, CheckContext, ComparedPoses, RunClock, RunDynamics, RunPayload, RunningCheck,
@@ -12,7 +12,7 @@ use congruent_monitors::{
 use congruent_motion::{Trajectory, codes::scenario::TARGET_LIMIT};
 use congruent_proximity::{MovingBody, ObstacleMobility, Zone, simplified_hulls};
 use congruent_scenario::{
-    ControllerKind, FilePlace, Override, Scenario, ScenarioFile, ScenarioFolder, numbers,
+    ControllerKind, FilePlace, Scenario, ScenarioFile, ScenarioFolder, numbers, robot_overrides,
 };
 
 use super::{
@@ -139,7 +139,7 @@ impl RunSetup {
         let description = match access
             .check(&robot)
             .map_err(Findings::from)
-            .and_then(|()| load_robot_with(&robot, &access))
+            .and_then(|()| load_robot_set(&robot, &robot_overrides(overrides), &access))
         {
             Ok(description) => description,
             Err(findings) => {

@@ -1,14 +1,14 @@
-//! `--set KEY=VALUE`: any value of a scenario, changed before the file is read.
+//! `--set KEY=VALUE`: any value of a file in TOML, changed before the file is read.
 
 use std::ops::Range;
 
-use congruent_input::{Diagnostic, toml_text};
 use toml::{
     Spanned,
     de::{DeTable, DeValue},
 };
 
-use crate::codes;
+use super::toml_text;
+use crate::{codes, diagnostic::Diagnostic};
 
 /// Characters that a value without quotes does not have: with one of these it was meant as TOML.
 const NOT_IN_WORDS: [char; 9] = ['"', '\'', '[', ']', '{', '}', '=', '#', '\n'];
@@ -21,7 +21,7 @@ const NOT_IN_WORDS: [char; 9] = ['"', '\'', '[', ']', '{', '}', '=', '#', '\n'];
 ///
 /// # Examples
 /// ```
-/// use congruent_scenario::Override;
+/// use congruent_input::Override;
 /// let stiffer: Override = "controller.stiffness=500".parse().expect("a key and a value");
 /// assert_eq!(stiffer.to_string(), "controller.stiffness=500");
 /// assert!("controller.stiffness".parse::<Override>().is_err());
@@ -70,6 +70,24 @@ impl std::fmt::Display for Override {
 }
 
 impl Override {
+    /// The keys of the path, the outermost first.
+    pub fn path(&self) -> impl Iterator<Item = &str> {
+        self.path.iter().map(String::as_str)
+    }
+
+    /// The value, as TOML.
+    pub fn value(&self) -> Option<toml::Value> {
+        let table: toml::Table = self.document.parse().ok()?;
+        table.into_iter().next().map(|(_, value)| value)
+    }
+
+    /// The override of a value in what the key `outer` names, if the path goes through it: `dh.row.3.d_m` of
+    /// `robot.dh.row.3.d_m`.
+    pub fn inside(&self, outer: &str) -> Option<Self> {
+        let (first, rest) = self.path.split_first().filter(|(_, rest)| !rest.is_empty())?;
+        (first == outer).then(|| Self { path: rest.to_vec(), ..self.clone() })
+    }
+
     /// An override of the scenario's seed.
     pub fn seed(seed: u64) -> Self {
         let written = format!("seed={seed}");
@@ -81,10 +99,7 @@ impl Override {
     ///
     /// # Errors
     /// The path goes through a value that is neither table nor list, or to an entry that a list does not have.
-    pub(super) fn apply<'a>(
-        &'a self,
-        document: &mut Spanned<DeTable<'a>>,
-    ) -> Result<Range<usize>, Diagnostic> {
+    pub fn apply<'a>(&'a self, document: &mut Spanned<DeTable<'a>>) -> Result<Range<usize>, Diagnostic> {
         let value = DeTable::parse(&self.document)
             .ok()
             .and_then(|table| table.into_inner().into_iter().next())
@@ -137,12 +152,53 @@ impl Override {
         }
     }
 
+    /// The value of a document that it replaces; `None` if a table has no such key yet.
+    ///
+    /// # Errors
+    /// As [`Override::apply`].
+    pub fn find<'d, 'a>(
+        &self,
+        document: &'d Spanned<DeTable<'a>>,
+    ) -> Result<Option<&'d Spanned<DeValue<'a>>>, Diagnostic> {
+        let (first, rest) = self.path.split_first().expect("a path has a key");
+        let Some(mut found) = document.get_ref().get(first.as_str()) else { return Ok(None) };
+        let mut name = first;
+        for key in rest {
+            let next = match found.get_ref() {
+                DeValue::Table(table) => table.get(key.as_str()),
+                DeValue::Array(items) => {
+                    let item = position(items, key).and_then(|index| items.get(index));
+                    Some(item.ok_or_else(|| self.refused(&format!("\"{name}\" has {}", entries(items))))?)
+                }
+                _ => return Err(self.refused(&format!("\"{name}\" is a value, not a table"))),
+            };
+            let Some(next) = next else { return Ok(None) };
+            (found, name) = (next, key);
+        }
+        Ok(Some(found))
+    }
+
+    /// The value as it is written, without its key.
+    pub fn written_value(&self) -> &str {
+        self.document.split_once('=').map_or("", |(_, value)| value.trim())
+    }
+
+    /// The path as a dotted key of TOML.
+    pub fn dotted_key(&self) -> String {
+        let quoted = |key: &String| {
+            let is_bare = key.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-');
+            if is_bare { key.clone() } else { toml::Value::String(key.clone()).to_string() }
+        };
+        self.path.iter().map(quoted).collect::<Vec<_>>().join(".")
+    }
+
     /// Whether both replace the same value.
-    pub(super) fn same_key(&self, other: &Self) -> bool {
+    pub fn same_key(&self, other: &Self) -> bool {
         self.path == other.path
     }
 
-    pub(super) fn refused(&self, why: &str) -> Diagnostic {
+    /// A refusal of this override, with how keys are written.
+    pub fn refused(&self, why: &str) -> Diagnostic {
         Diagnostic::error(codes::cli::SET, format!("--set {}: {why}", self.written)).with_help(
             "KEY is the keys of the file joined by dots, entries of lists by their number from 1, or by their kind: \
              check.1.position_m=1e-6, check.agreement.position_m=1e-6",
@@ -150,25 +206,29 @@ impl Override {
     }
 }
 
-/// The kind of an entry, or its name: what a person calls it.
-fn label<'a>(item: &'a Spanned<DeValue<'_>>) -> Option<&'a str> {
-    let table = item.get_ref().as_table()?;
-    table.get("kind").or_else(|| table.get("name"))?.get_ref().as_str()
+/// What a person calls an entry: its kind, its name, its joint.
+fn labels<'a>(item: &'a Spanned<DeValue<'_>>) -> impl Iterator<Item = &'a str> {
+    let table = item.get_ref().as_table();
+    ["kind", "name", "joint"].into_iter().filter_map(move |key| table?.get(key)?.get_ref().as_str())
 }
 
-/// Which entry is meant: by its number from 1, or by its kind or name if no other has it.
+/// Which entry is meant: by its number from 1, or by its kind, name or joint if no other has it.
 fn position(items: &[Spanned<DeValue<'_>>], word: &str) -> Option<usize> {
     if let Ok(number) = word.parse::<usize>() {
         return number.checked_sub(1);
     }
-    let mut called = items.iter().enumerate().filter(|(_, item)| label(item) == Some(word));
+    let is_called = |item: &Spanned<DeValue<'_>>| labels(item).any(|label| label == word);
+    let mut called = items.iter().enumerate().filter(|(_, item)| is_called(item));
     let (first, _) = called.next()?;
     called.next().is_none().then_some(first)
 }
 
 /// The entries of a list: `entries 1 to 2: 1 agreement, 2 clearance`.
 fn entries(items: &[Spanned<DeValue<'_>>]) -> String {
-    let named = |(number, item)| Some(format!("{number} {}", label(item)?));
+    let named = |(number, item)| {
+        let labels: Vec<&str> = labels(item).collect();
+        (!labels.is_empty()).then(|| format!("{number} {}", labels.join(" ")))
+    };
     let names: Vec<String> = (1..).zip(items).filter_map(named).collect();
     let names = if names.is_empty() { String::new() } else { format!(": {}", names.join(", ")) };
     format!("entries 1 to {}{names}", items.len())
