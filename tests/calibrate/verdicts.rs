@@ -159,7 +159,7 @@ fn what_no_common_error_explains_stays_unexplained() {
         let report = answer.json();
         let first = report["statements"][0].as_str().unwrap();
         assert_eq!((answer.code, &report["verdict"]), (1, &json!("unexplained")), "{first}");
-        assert!(report["likely_reason"].is_null() && first.contains("no common error"), "{first}");
+        assert!(report["likely_reason"].is_null() && first.contains("none of the errors"), "{first}");
     }
 }
 

@@ -4,7 +4,7 @@ use std::fmt;
 
 use congruent_description::RobotDescription;
 use congruent_input::Diagnostic;
-use congruent_kinematics::{Pose, ReportedPose};
+use congruent_kinematics::Pose;
 use nalgebra::{Matrix3, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -22,59 +22,14 @@ pub enum CameraMount {
     EyeToHand,
 }
 
-/// The groups of corrections that are the poses of camera and target.
-pub const CAMERA_GROUPS: [&str; 2] = ["base", "tool"];
-
-/// Camera and target with the recommended estimate. The other corrections are right together with these.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct CameraFrames {
-    /// Where the camera is mounted.
-    pub mount: CameraMount,
-    /// The camera: on link `tip` in the hand, otherwise on link `base`.
-    pub camera: FrameOnLink,
-    /// The target: on link `base` if the camera is in the hand, otherwise on link `tip`.
-    pub target: FrameOnLink,
-    /// Whether orientations of the target were measured; otherwise its orientation here is arbitrary.
-    pub has_orientation: bool,
-}
-
-/// A frame that is fixed to a link.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct FrameOnLink {
-    /// Name of the link.
-    pub link: String,
-    /// Pose of the frame in the link.
-    pub link_from_frame: ReportedPose,
-}
-
 impl fmt::Display for CameraMount {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.serialize(formatter)
     }
 }
 
-impl CameraFrames {
-    /// Camera and target from the poses of a calibration: of the base in the frame of the measurements, and of the measured frame in
-    /// the tip.
-    pub(crate) fn new(
-        description: &RobotDescription,
-        mount: CameraMount,
-        rows: &[MeasuredRow],
-        [measured_from_base, tip_from_measured]: [&Pose; 2],
-    ) -> Self {
-        let has_orientation = rows.iter().any(|row| row.orientation.is_some());
-        let on = |link, pose: &Pose| FrameOnLink {
-            link: description.robot.link(link).name.clone(),
-            link_from_frame: ReportedPose::from(pose),
-        };
-        let on_base = on(description.base, &measured_from_base.inverse());
-        let on_tip = on(description.tip, tip_from_measured);
-        match mount {
-            CameraMount::EyeInHand => Self { mount, camera: on_tip, target: on_base, has_orientation },
-            CameraMount::EyeToHand => Self { mount, camera: on_base, target: on_tip, has_orientation },
-        }
-    }
-}
+/// The groups of corrections that are the poses of camera and target.
+pub const CAMERA_GROUPS: [&str; 2] = ["base", "tool"];
 
 /// The name of what was measured.
 pub(crate) fn measured_frame(description: &RobotDescription, camera: Option<CameraMount>) -> String {

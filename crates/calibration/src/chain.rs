@@ -24,6 +24,8 @@ pub(super) struct NominalChain<'a> {
     pub(super) chain: ScrewChain,
     /// For each joint of the chain its entry of the configuration vector.
     pub(super) coordinates: Vec<usize>,
+    /// Pose of the measured frame in link `tip`, without corrections.
+    tip_from_tcp: Pose,
 }
 
 impl<'a> NominalChain<'a> {
@@ -46,7 +48,14 @@ impl<'a> NominalChain<'a> {
         };
         let tip_from_tcp = description.tip_from_tcp.map_or(Pose::identity(), Pose::from);
         chain.base_from_tip_at_zero = chain.base_from_tip_at_zero * tip_from_tcp;
-        Ok(Self { robot, table, chain, coordinates })
+        Ok(Self { robot, table, chain, coordinates, tip_from_tcp })
+    }
+
+    /// Pose of the measured frame in link `tip`, with the displacement of the tool, which is in link `base` at zero.
+    pub(super) fn tip_from_measured(&self, tool: &Pose) -> Pose {
+        let base_from_tcp = self.chain.base_from_tip_at_zero;
+        let base_from_tip = base_from_tcp * self.tip_from_tcp.inverse();
+        base_from_tip.inverse() * *tool * base_from_tcp
     }
 
     /// Indices, in the configuration vector, of the joints with this kind of motion.

@@ -6,6 +6,7 @@
 
 mod calibrate;
 mod camera;
+mod camera_frames;
 mod chain;
 pub mod codes;
 mod computed;
@@ -19,7 +20,8 @@ pub mod report;
 pub mod same_point;
 
 pub use calibrate::{calibrate, needed_coordinates};
-pub use camera::{CAMERA_GROUPS, CameraFrames, CameraMount, FrameOnLink};
+pub use camera::{CAMERA_GROUPS, CameraMount};
+pub use camera_frames::{CameraFrames, FrameOnLink, SharedMotion};
 pub use corrected::{CorrectedRobot, corrected_robot};
 pub use estimation::{Loss, Noise};
 pub use free::GROUPS;

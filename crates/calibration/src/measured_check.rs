@@ -8,17 +8,18 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::{
-    camera::{CameraFrames, CameraMount, may_be_seen, measured_frame},
+    camera::{CameraMount, may_be_seen, measured_frame},
+    camera_frames::{CameraEstimate, CameraFrames},
     chain::NominalChain,
     codes,
     computed::measurement,
     estimation::{
-        CorrectedChain, Displacements, Loss, Measurement, ParameterUnit, PoseResidual, Problem, align,
-        fit_robustly, fit_with_estimated_noise, identify,
+        CorrectedChain, FixedParameter, Identification, Loss, Measurement, ParameterUnit, PoseResidual,
+        Problem, align, fit_robustly, fit_with_estimated_noise, identify,
     },
     free,
     measurements::MeasuredRow,
-    report::{CalibratedModel, ResidualSummary, assemble::summary, tip_from_measured},
+    report::{CalibratedModel, ResidualSummary, residual_summary::summary},
 };
 
 /// Options of a comparison with measurements.
@@ -134,7 +135,7 @@ pub fn check_measured(
         rows.iter().map(|row| measurement(&nominal, row, options.camera)).collect();
     judged_parts(&measured, options.tolerance)?;
     let chain = of_frames(&nominal, options)?;
-    let (corrections, kept) = fitted(&chain, &measured, options.threshold)?;
+    let FittedFrames { corrections, kept, fixed } = fitted(&chain, &measured, options.threshold)?;
     let residuals = Problem { chain: &chain, measurements: &measured }.residuals(&corrections);
     let row_differences: Vec<MeasuredDifference> = residuals
         .iter()
@@ -152,9 +153,17 @@ pub fn check_measured(
         is_identified: kept.contains(&at),
     });
     let camera = options.camera.map(|mount| {
-        let moved = Displacements::new(&chain, &corrections);
-        let tool = tip_from_measured(description, &nominal, &moved);
-        CameraFrames::new(description, mount, rows, [&moved.base, &tool])
+        let estimate = CameraEstimate {
+            mount,
+            description,
+            nominal: &nominal,
+            chain: &chain,
+            corrections: &corrections,
+            covariance: None,
+            fixed: &fixed,
+            has_orientation: rows.iter().any(|row| row.orientation.is_some()),
+        };
+        estimate.frames()
     });
     Ok(MeasuredCheck {
         robot: description.name.clone(),
@@ -212,19 +221,27 @@ fn of_frames(
     Ok(CorrectedChain::new(nominal.chain.clone(), parameters))
 }
 
+/// Base and tool as they were fitted.
+#[derive(Debug, Default)]
+struct FittedFrames {
+    corrections: Vec<f64>,
+    kept: Vec<usize>,
+    fixed: Vec<FixedParameter>,
+}
+
 /// The corrections of base and tool, and which of them are identified. They are fitted robustly: a row that is off must not hide
 /// in the frames.
 fn fitted(
     chain: &CorrectedChain,
     measured: &[Measurement],
     threshold: f64,
-) -> Result<(Vec<f64>, Vec<usize>), Diagnostic> {
+) -> Result<FittedFrames, Diagnostic> {
     if chain.parameters().is_empty() {
-        return Ok((Vec::new(), Vec::new()));
+        return Ok(FittedFrames::default());
     }
     let chain = align(chain, measured, threshold);
     let problem = Problem { chain: &chain, measurements: measured };
-    let kept = identify(&problem, threshold).kept;
+    let Identification { kept, fixed, .. } = identify(&problem, threshold);
     if problem.redundancy(&kept) == 0 {
         let message =
             "the measurements are too few to fit base and tool and to compare: any arm would agree with them";
@@ -236,7 +253,7 @@ fn fitted(
     let robust = fit_robustly(&problem, &kept, Loss::Tukey, &plain, None);
     let is_most = 2 * robust.outliers.len() > measured.len();
     let best = if robust.outliers.is_empty() || is_most { plain } else { robust.fit };
-    Ok((best.corrections, kept))
+    Ok(FittedFrames { corrections: best.corrections, kept, fixed })
 }
 
 fn difference(

@@ -11,8 +11,8 @@ use congruent_calibration::{
     needed_coordinates,
     report::{CalibrationReport, CalibrationVerdict},
 };
-use congruent_description::{RequestedTolerance, RobotDescription, load_robot};
-use congruent_kinematics::Pose;
+use congruent_description::{RequestedTolerance, RobotDescription, RobotQ, load_robot};
+use congruent_kinematics::{Pose, UrdfTree};
 use nalgebra::{Rotation3, Vector3};
 
 /// What the program that wrote the rows put into them: `tool0_from_camera`, `base_link_from_target`, and zeros of joints.
@@ -165,4 +165,54 @@ fn a_camera_in_the_hand_needs_whole_points() {
     rows[3].tip_in_base_m[1] = None;
     let refused = calibrate(&robot, &rows, &options(CameraMount::EyeInHand, &["base", "tool"])).unwrap_err();
     assert!(refused.message.contains("line 5"), "{}", refused.message);
+}
+
+#[test]
+fn pictures_that_turn_about_one_axis_do_not_determine_the_camera() {
+    let robot = ur5e();
+    let mut tree = UrdfTree::new(&robot.robot);
+    let mut links = vec![Pose::identity(); robot.robot.links().len()];
+    let (camera, target) = (pose(CAMERA), pose(TARGET));
+    let rows: Vec<MeasuredRow> = (0_u8..12)
+        .map(|at| {
+            let mut q = RobotQ::from([0.3, -1.1, 1.4, -1.9, -1.5, 0.0]);
+            q[5] = 0.25 * f64::from(at);
+            tree.root_from_links_into(&q, &mut links).unwrap();
+            let [base, tip] = [robot.base, robot.tip].map(|link| links[link.get()]);
+            let base_from_tip = base.inverse() * tip;
+            let seen = (base_from_tip * camera).inverse() * target;
+            let turn = Rotation3::from_matrix_unchecked(seen.rotation).scaled_axis();
+            MeasuredRow {
+                line: usize::from(at) + 2,
+                q,
+                tip_in_base_m: <[f64; 3]>::from(seen.translation).map(Some),
+                orientation: Some(WrittenOrientation::RotationVectorRad(turn.into())),
+            }
+        })
+        .collect();
+    let options = options(CameraMount::EyeInHand, &["base", "tool"]);
+    let report = calibrate(&robot, &rows, &options).unwrap();
+    assert_eq!(report.verdict, CalibrationVerdict::CameraUndetermined);
+    assert!(corrected_robot(&robot, &options, &report).unwrap().is_none());
+    let camera = report.camera.unwrap();
+    // The last joint turns about z of the flange: along it and about it nothing is known.
+    assert_eq!(camera.undetermined.iter().filter(|motion| motion.is_turn).count(), 1);
+    for motion in &camera.undetermined {
+        assert!((motion.direction[2].abs() - 1.0).abs() < 1e-3, "{motion:?}");
+    }
+}
+
+#[test]
+fn a_board_of_another_size_is_named() {
+    let robot = ur5e();
+    let larger = |row: MeasuredRow| {
+        let tip_in_base_m = row.tip_in_base_m.map(|value| value.map(|value| value / 1.04));
+        MeasuredRow { tip_in_base_m, ..row }
+    };
+    let rows: Vec<MeasuredRow> = seen(&robot).into_iter().map(larger).collect();
+    let options = options(CameraMount::EyeInHand, &["base", "tool", "zero-offsets"]);
+    let report = calibrate(&robot, &rows, &options).unwrap();
+    let condition = report.likely_reason.unwrap().condition;
+    let size: f64 = condition.split(' ').find_map(|word| word.parse().ok()).unwrap();
+    assert!(condition.contains("the target is") && (size - 1.04).abs() < 2e-3, "{condition}");
 }

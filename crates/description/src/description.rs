@@ -7,7 +7,7 @@ use std::{
 };
 
 use congruent_input::{Capability, Diagnostic, Findings, InputFile, display::first_of, known_names};
-use congruent_robot::{DhTable, JointIndex, LinkIndex, RequestedTolerance, Robot, Tolerance};
+use congruent_robot::{DhTable, JointIndex, LinkIndex, RequestedTolerance, Robot, Tolerance, WrittenNames};
 use nalgebra::Isometry3;
 
 use crate::{
@@ -21,7 +21,6 @@ use crate::{
     },
     tolerance_scale::ToleranceScale,
     urdf::UrdfPlaces,
-    written_names::WrittenNames,
 };
 
 /// The texts that a description was read from. Messages show lines of these texts, even if the files have changed since.

@@ -13,15 +13,12 @@ mod model_file;
 mod named_robot;
 mod own_model;
 mod parameter_places;
-mod pose_rounding;
 mod revision;
 mod robot_file;
 mod set_values;
 mod srdf;
 mod tolerance_scale;
-mod toml_literal;
 mod urdf;
-mod written_names;
 
 pub use chain::{ChainEnd, ChainEnds, ReportedChain};
 pub use changed::{ChangedRobots, robots_of_changed};
@@ -47,7 +44,6 @@ pub use robot_file::{
 };
 pub use set_values::load_robot_set;
 pub use tolerance_scale::ToleranceScale;
-pub use toml_literal::{toml_key, toml_string};
 pub use urdf::{
     JointDigits, LARGEST_GYRATION_M, LargeLinks, Misspelling, Misspelt, URDF_BYTES, UrdfPlaces, misspellings,
     nearest_possible_tensor, node, parse_urdf,

@@ -74,6 +74,7 @@ fn outcome(verdict: CalibrationVerdict) -> (BadgeKind, &'static str) {
         CalibrationVerdict::Misinterpreted => (BadgeKind::Bad, "FILE LIKELY IN OTHER UNITS, ORDER OR FRAME"),
         CalibrationVerdict::TooLarge => (BadgeKind::Bad, "CORRECTIONS TOO LARGE"),
         CalibrationVerdict::Unverifiable => (BadgeKind::Unclear, "CANNOT BE VERIFIED"),
+        CalibrationVerdict::CameraUndetermined => (BadgeKind::Unclear, "CAMERA NOT DETERMINED"),
         CalibrationVerdict::NothingIdentified => (BadgeKind::Unclear, "NOTHING IDENTIFIED"),
     }
 }

@@ -209,7 +209,7 @@ impl Robot {
     #[must_use]
     pub fn with_fixed_link(&self, parent: &str, parent_from_link: Isometry3<f64>, link: Link) -> Self {
         let taken = self.joints().iter().map(|joint| joint.name.as_str()).collect();
-        let name = free_name(&link.name, &taken);
+        let name = free_name(&format!("{}_joint", link.name), &taken);
         let fixed = JointParts::new(&name, JointKind::Fixed, parent, &link.name, parent_from_link);
         let parts = self.joints().iter().map(|joint| self.parts(joint.clone(), self.written_mimic(joint)));
         self.rebuilt(self.links().iter().cloned().chain([link]).collect(), parts.chain([fixed]).collect())

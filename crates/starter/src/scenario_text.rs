@@ -2,7 +2,8 @@
 
 use std::{collections::BTreeMap, fmt::Write};
 
-use congruent_description::{RobotDescription, toml_key, toml_string};
+use congruent_description::RobotDescription;
+use congruent_input::{toml_key, toml_string};
 use congruent_scenario::{Check, ControllerKind, JointMotion, MotionSettings, Scenario, TrackingCheck};
 
 use crate::written::comment;

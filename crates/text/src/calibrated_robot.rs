@@ -2,11 +2,11 @@
 
 use std::fmt::Write;
 
-use congruent_calibration::CameraFrames;
 use congruent_calibration::report::{
     CalibratedFiles, CalibrationReport, EstimatedFrames, Recommendation, WrittenModel,
 };
 use congruent_calibration::same_point::{SamePointReport, SamePointSpread};
+use congruent_calibration::{CameraFrames, FrameOnLink};
 use congruent_description::ReportedChain;
 use congruent_input::{
     InputFile,
@@ -109,6 +109,9 @@ fn not_taken_over(text: &mut String, left_out: &[String]) {
 pub(crate) fn frames_text(text: &mut String, report: &CalibrationReport) {
     if let Some(camera) = &report.camera {
         camera_text(text, camera, "camera and target as estimated");
+        if report.recommended != Recommendation::Nominal {
+            camera_origin(text, &camera.camera);
+        }
     }
     let Some(EstimatedFrames { measured_from_base, tip_from_measured }) = &report.frames else { return };
     let _ = writeln!(text, "\n  frames with which the corrections of the arm are right");
@@ -124,21 +127,40 @@ pub(crate) fn frames_text(text: &mut String, report: &CalibrationReport) {
 /// Below the title, where camera and target are, and the camera as a fixed joint of a URDF.
 pub fn camera_text(text: &mut String, frames: &CameraFrames, title: &str) {
     let _ = writeln!(text, "\n  {title}");
-    for (what, frame) in [("camera", &frames.camera), ("target", &frames.target)] {
-        let pose = pose_in_words(&frame.link_from_frame);
-        // Points place a target without turning it.
-        let is_turned = what == "camera" || frames.has_orientation;
-        let pose = if is_turned { &pose } else { pose.split(", rpy_deg").next().unwrap_or(&pose) };
-        let _ = writeln!(text, "  {what} in {}  {pose}", frame.link);
+    frame_text(text, "camera", &frames.camera, &pose_in_words(&frames.camera.link_from_frame));
+    let pose = pose_in_words(&frames.target.link_from_frame);
+    // Points place a target without turning it.
+    let placed = pose.split(", rpy_deg").next().unwrap_or(&pose);
+    frame_text(text, "target", &frames.target, if frames.has_orientation { &pose } else { placed });
+    if !frames.undetermined.is_empty() {
+        let _ = writeln!(text, "  not determined: {}", frames.undetermined_in_words());
     }
-    let pose = &frames.camera.link_from_frame;
+}
+
+/// Where a frame is, and how well that is known.
+fn frame_text(text: &mut String, what: &str, frame: &FrameOnLink, pose: &str) {
+    let _ = writeln!(text, "  {what} in {}  {pose}", frame.link);
+    let list =
+        |values: [f64; 3], factor: f64| values.map(|value| format!("{:.4}", value * factor)).join(", ");
+    let position = frame.position_deviation_m.map(|of| format!("[{}] mm", list(of, 1e3)));
+    let turn = frame.orientation_deviation_rad.map(|of| format!("[{}] deg", list(of, 1_f64.to_degrees())));
+    let deviations: Vec<String> = position.into_iter().chain(turn).collect();
+    if !deviations.is_empty() {
+        let _ = writeln!(
+            text,
+            "    standard deviations along and about the axes of {}: {}",
+            frame.link,
+            deviations.join(", ")
+        );
+    }
+}
+
+/// The camera as the origin of a fixed joint.
+fn camera_origin(text: &mut String, camera: &FrameOnLink) {
+    let pose = &camera.link_from_frame;
     let list = |values: [f64; 3]| values.map(|value| format!("{value:.6}")).join(" ");
     let (xyz, rpy) = (list(pose.translation_m), list(pose.rpy_rad()));
-    let _ = writeln!(
-        text,
-        "  camera in {} as in a URDF  <origin xyz=\"{xyz}\" rpy=\"{rpy}\"/>",
-        frames.camera.link
-    );
+    let _ = writeln!(text, "  camera in {} as in a URDF  <origin xyz=\"{xyz}\" rpy=\"{rpy}\"/>", camera.link);
 }
 
 /// As a robot file may have it.

@@ -3,11 +3,11 @@
 use std::{f64::consts::FRAC_PI_2, fmt::Write, path::Path};
 
 use congruent_description::{
-    DhRow, DhRowKind, DhTable, Joint, JointIndex, Robot, RobotDescription, Tolerance, toml_key, toml_string,
+    DhRow, DhRowKind, DhTable, Joint, JointIndex, Robot, RobotDescription, Tolerance,
 };
 use congruent_input::{
     number::{number, numbers, short_degrees},
-    rpy_fixed_xyz_rad,
+    rpy_fixed_xyz_rad, toml_key, toml_string,
 };
 use nalgebra::{Isometry3, Vector3};
 

@@ -12,7 +12,8 @@ use super::{
     tree::{corrected_tree, is_unchanged, with_frame},
 };
 use crate::{
-    camera::{CAMERA_GROUPS, FrameOnLink},
+    camera::CAMERA_GROUPS,
+    camera_frames::FrameOnLink,
     chain::NominalChain,
     codes,
     estimation::{CorrectedChain, Displacements},

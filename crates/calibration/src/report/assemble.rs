@@ -9,14 +9,15 @@ use nalgebra::DMatrix;
 use super::{
     calibration_report::{
         AlignedFrames, CalibratedModel, CalibrationReport, CalibrationVerdict, CorrectedTableEntry,
-        CostCurve, EstimatedCorrection, FitSummary, HeldOutSummary, Identifiability, LikelyReason,
-        Recommendation, ResidualSummary, RowEntry, RowResidual, SuggestedConfiguration,
+        CostCurve, EstimatedCorrection, FitSummary, HeldOutSummary, Identifiability, Recommendation,
+        RowEntry, RowResidual, SuggestedConfiguration,
     },
     fixed::reported_fixed,
     frames::frames,
-    interpretation::{self, Misfit},
-    residual_size::{LARGE_CORRECTION, ReachScale, ResidualSize},
+    residual_size::{ReachScale, ResidualSize},
+    residual_summary::{angle, distance, summary},
     statements,
+    verdict::{explanation, reinterpreted},
 };
 use crate::{
     camera::measured_frame,
@@ -30,8 +31,6 @@ use crate::{
 
 /// A correction below this many standard deviations is not significant. No unit; kind: choice, 95 % of normal noise.
 const SIGNIFICANT_SIGMAS: f64 = 2.0;
-/// Number of standard deviations of chi-squared by which the residuals may exceed a stated noise. No unit; kind: choice.
-const NOISE_EXCESS_SIGMAS: f64 = 4.0;
 
 /// The report of a calibration, with verdict, estimates, residuals and sentences.
 pub(crate) fn report(computed: &Computed<'_>) -> CalibrationReport {
@@ -41,7 +40,7 @@ pub(crate) fn report(computed: &Computed<'_>) -> CalibrationReport {
     let nominal = residuals(computed, &nothing);
     let held_out = held_out(computed, &nominal);
     let (corrected_size, nominal_size) = residual_sizes(computed, &nominal);
-    let verdict = explanation(computed, held_out.as_ref(), &corrected_size, &nominal_size);
+    let verdict = explanation(computed, held_out.as_ref(), [&corrected_size, &nominal_size], camera.as_ref());
     let (verdict, likely_reason) = reinterpreted(computed, verdict, &corrected_size);
     let row_residuals = rows(computed, &nominal);
     let mut report = CalibrationReport {
@@ -121,30 +120,6 @@ fn residuals(computed: &Computed<'_>, corrections: &[f64]) -> Vec<PoseResidual> 
     Problem { chain: &computed.chain, measurements: &computed.measurements }.residuals(corrections)
 }
 
-pub(crate) fn summary(residuals: &[PoseResidual]) -> ResidualSummary {
-    let sum = |of: fn(&PoseResidual) -> f64| residuals.iter().map(|each| of(each).powi(2)).sum::<f64>();
-    let worst = |of: fn(&PoseResidual) -> f64| residuals.iter().map(of).fold(0.0, f64::max);
-    #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^53 rows")]
-    let count = residuals.len().max(1) as f64;
-    let (cost_m2, cost_rad2) = (sum(distance), sum(angle));
-    ResidualSummary {
-        cost_m2,
-        cost_rad2,
-        rms_m: (cost_m2 / count).sqrt(),
-        rms_rad: (cost_rad2 / count).sqrt(),
-        worst_m: worst(distance),
-        worst_rad: worst(angle),
-    }
-}
-
-fn distance(residual: &PoseResidual) -> f64 {
-    residual.position_m.norm()
-}
-
-fn angle(residual: &PoseResidual) -> f64 {
-    residual.orientation_rad.norm()
-}
-
 fn fit_summary(computed: &Computed<'_>, fit: &CalibrationFit) -> FitSummary {
     let Noise { position_m, orientation_rad } = fit.noise;
     let is_known = computed.redundancy > 0 || computed.options.noise.is_some();
@@ -182,89 +157,6 @@ fn residual_sizes(computed: &Computed<'_>, nominal: &[PoseResidual]) -> (Residua
     let residuals = held_out.unwrap_or(&computed.best().residuals);
     let size = |residuals: &[PoseResidual]| reach_scale.residual_size(residuals, &computed.outlier_rows);
     (size(residuals), size(nominal))
-}
-
-/// Tries other interpretations of the file if the corrections explain nothing, or if they do so only by
-/// being large: `dh` turns metres into millimetres by lengths a thousand times as short.
-fn reinterpreted(
-    computed: &Computed<'_>,
-    verdict: CalibrationVerdict,
-    residual: &ResidualSize,
-) -> (CalibrationVerdict, Option<LikelyReason>) {
-    let problem = Problem { chain: &computed.chain, measurements: &computed.measurements };
-    let size =
-        ReachScale::for_problem(&problem).correction_size(&computed.chain, &computed.best().corrections);
-    let misfit = match verdict {
-        CalibrationVerdict::Unexplained => Misfit::Residual(residual.share()),
-        CalibrationVerdict::Explained
-        | CalibrationVerdict::UnexplainedRows
-        | CalibrationVerdict::NoiseExceeded
-            if size > LARGE_CORRECTION =>
-        {
-            Misfit::Correction(size)
-        }
-        _ => return (verdict, None),
-    };
-    let is_too_large = verdict != CalibrationVerdict::Unexplained
-        && ReachScale::for_problem(&problem)
-            .too_large(&computed.chain, &computed.best().corrections)
-            .is_some();
-    match interpretation::likely_reason(&computed.nominal, computed.rows, computed.options, misfit) {
-        Some(reason) if verdict != CalibrationVerdict::Unexplained => {
-            (CalibrationVerdict::Misinterpreted, Some(reason))
-        }
-        None if is_too_large => (CalibrationVerdict::TooLarge, None),
-        reason => (verdict, reason),
-    }
-}
-
-fn explanation(
-    computed: &Computed<'_>,
-    held_out: Option<&HeldOutSummary>,
-    corrected: &ResidualSize,
-    nominal: &ResidualSize,
-) -> CalibrationVerdict {
-    if computed.identification.kept.is_empty() {
-        return CalibrationVerdict::NothingIdentified;
-    }
-    // A stated noise is a better scale than the reach.
-    let is_noise = computed.options.noise.is_some() && !exceeds_noise(computed);
-    if corrected.explains_nothing(nominal) && !is_noise {
-        return CalibrationVerdict::Unexplained;
-    }
-    // After the check for large residuals: a misfit can be seen without redundancy, a good fit cannot be trusted
-    // without it.
-    if computed.redundancy == 0 || held_out.is_none() {
-        return CalibrationVerdict::Unverifiable;
-    }
-    if !computed.outlier_rows.is_empty() {
-        return CalibrationVerdict::UnexplainedRows;
-    }
-    if computed.options.noise.is_some() && exceeds_noise(computed) {
-        return CalibrationVerdict::NoiseExceeded;
-    }
-    let Noise { position_m, orientation_rad } = computed.least_squares.noise;
-    // Positions and angles are made comparable by their noise, as in the cost.
-    let size = |m: f64, rad: f64| (m / position_m).powi(2) + (rad / orientation_rad).powi(2);
-    match held_out {
-        Some(error)
-            if size(error.rms_m, error.rms_rad) < size(error.nominal_rms_m, error.nominal_rms_rad) =>
-        {
-            CalibrationVerdict::Explained
-        }
-        _ => CalibrationVerdict::NoImprovement,
-    }
-}
-
-/// Whether chi-squared of the residuals exceeds its degrees of freedom by more than the stated noise allows.
-fn exceeds_noise(computed: &Computed<'_>) -> bool {
-    let Noise { position_m, orientation_rad } = computed.least_squares.noise;
-    let residuals = summary(&computed.least_squares.residuals);
-    let chi_squared = residuals.cost_m2 / position_m.powi(2) + residuals.cost_rad2 / orientation_rad.powi(2);
-    let components: usize = computed.measurements.iter().map(Measurement::component_count).sum();
-    #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^53 components")]
-    let freedom = components.saturating_sub(computed.identification.kept.len()) as f64;
-    chi_squared > freedom + NOISE_EXCESS_SIGMAS * (2.0 * freedom).sqrt()
 }
 
 fn estimates(computed: &Computed<'_>) -> Vec<EstimatedCorrection> {

@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use super::{calibrated_files::CalibratedFiles, frames::EstimatedFrames};
 use crate::{
-    camera::CameraFrames,
+    camera_frames::CameraFrames,
     estimation::{Loss, ParameterUnit},
 };
 
@@ -129,6 +129,8 @@ pub enum CalibrationVerdict {
     /// The corrections explain the measurements only with a length error above a tenth of the reach, too large for an assembly
     /// error; base and tool may be anywhere.
     TooLarge,
+    /// The rows explain the corrections, but camera and target could be moved together without any row showing it.
+    CameraUndetermined,
     /// There is no redundancy, or there are too few configurations to hold some out: the estimate cannot be verified.
     Unverifiable,
     /// No free correction can be identified.

@@ -1,11 +1,14 @@
 //! Base and tool as the recommended estimate has them.
 
-use congruent_description::RobotDescription;
 use congruent_kinematics::{Pose, ReportedPose};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::{camera::CameraFrames, chain::NominalChain, computed::Computed, estimation::Displacements};
+use crate::{
+    camera_frames::{CameraEstimate, CameraFrames},
+    computed::Computed,
+    estimation::Displacements,
+};
 
 /// Base and tool with the recommended estimate. The other corrections are right together with these.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -23,10 +26,21 @@ pub struct EstimatedFrames {
 pub(super) fn frames(computed: &Computed<'_>) -> (Option<EstimatedFrames>, Option<CameraFrames>) {
     let moved = Displacements::new(&computed.chain, &computed.best().corrections);
     let is_moved = |pose: &&Pose| **pose != Pose::identity();
-    let tip_from_measured = tip_from_measured(computed.description, &computed.nominal, &moved);
+    let tip_from_measured = computed.nominal.tip_from_measured(&moved.tool);
     if let Some(mount) = computed.options.camera {
-        let poses = [&moved.base, &tip_from_measured];
-        return (None, Some(CameraFrames::new(computed.description, mount, computed.rows, poses)));
+        let is_noise_known = computed.redundancy > 0 || computed.options.noise.is_some();
+        let covariance = (&computed.identification.kept[..], &computed.best().covariance);
+        let estimate = CameraEstimate {
+            mount,
+            description: computed.description,
+            nominal: &computed.nominal,
+            chain: &computed.chain,
+            corrections: &computed.best().corrections,
+            covariance: is_noise_known.then_some(covariance),
+            fixed: &computed.identification.fixed,
+            has_orientation: computed.rows.iter().any(|row| row.orientation.is_some()),
+        };
+        return (None, Some(estimate.frames()));
     }
     let found = EstimatedFrames {
         measured_from_base: Some(&moved.base).filter(is_moved).map(ReportedPose::from),
@@ -34,16 +48,4 @@ pub(super) fn frames(computed: &Computed<'_>) -> (Option<EstimatedFrames>, Optio
     };
     let is_displaced = found.measured_from_base.is_some() || found.tip_from_measured.is_some();
     (is_displaced.then_some(found), None)
-}
-
-/// Pose of the measured frame in link `tip`, with the corrections of the tool.
-pub(crate) fn tip_from_measured(
-    description: &RobotDescription,
-    nominal: &NominalChain<'_>,
-    moved: &Displacements,
-) -> Pose {
-    let base_from_tcp = nominal.chain.base_from_tip_at_zero;
-    let tip_from_tcp = description.tip_from_tcp.map_or(Pose::identity(), Pose::from);
-    let base_from_tip = base_from_tcp * tip_from_tcp.inverse();
-    base_from_tip.inverse() * moved.tool * base_from_tcp
 }

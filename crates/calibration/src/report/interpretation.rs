@@ -10,7 +10,7 @@ use super::{
     residual_size::{LARGE_CORRECTION, ReachScale, ResidualSize},
 };
 use crate::{
-    camera::{CAMERA_GROUPS, CameraMount},
+    camera::{CAMERA_GROUPS, CameraMount, may_be_seen},
     chain::{JointMotionKind, NominalChain},
     computed::measurement,
     estimation::{
@@ -38,12 +38,21 @@ const SOME_ROWS: usize = 60;
 type Reinterpret<'a> = Box<dyn Fn(&MeasuredRow) -> Option<MeasuredRow> + 'a>;
 
 /// One other interpretation of the file.
-struct Interpretation<'a> {
+pub(super) struct Interpretation<'a> {
     /// The interpretation, as a clause after "if".
     condition: String,
     reinterpret: Reinterpret<'a>,
     /// Groups of corrections that are free in addition to those of the options.
     free: &'static [&'static str],
+    /// Where the camera is, if one measured the rows.
+    camera: Option<CameraMount>,
+}
+
+impl Interpretation<'_> {
+    /// Positions that are longer by this factor.
+    pub(super) fn scaled(factor: f64, camera: Option<CameraMount>) -> Self {
+        Self { condition: String::new(), reinterpret: positions(factor), free: &[], camera }
+    }
 }
 
 /// Why the file probably needs another interpretation.
@@ -57,8 +66,8 @@ pub(super) enum Misfit {
 
 /// An estimate under another interpretation.
 #[derive(Debug, Clone, Copy)]
-struct InterpretedFit {
-    residual: ResidualSize,
+pub(super) struct InterpretedFit {
+    pub(super) residual: ResidualSize,
     correction_size: f64,
     /// Whether a frame is free in addition: then a joint's zero may be as large as the rotation of the frame.
     is_of_a_frame: bool,
@@ -102,7 +111,7 @@ pub(super) fn likely_reason(
 
 /// A robust estimate under another interpretation; `None` if the interpretation does not apply, or the
 /// residuals of half of the rows are large.
-fn interpreted_fit(
+pub(super) fn interpreted_fit(
     nominal: &NominalChain<'_>,
     rows: &[MeasuredRow],
     options: &CalibrationOptions,
@@ -113,7 +122,9 @@ fn interpreted_fit(
     let more = interpretation.free.iter().map(|&group| group.to_owned());
     let free: Vec<String> = options.free.iter().cloned().chain(more).collect();
     let parameters = free::parameters(nominal, &free, &options.hold).ok()?;
-    let measurements: Vec<_> = rows.iter().map(|row| measurement(nominal, row, options.camera)).collect();
+    may_be_seen(&rows, interpretation.camera).ok()?;
+    let measurements: Vec<_> =
+        rows.iter().map(|row| measurement(nominal, row, interpretation.camera)).collect();
     // Estimates that explain nothing converge slowly, so the median of some rows decides first.
     // Spread over the file rather than the first rows, which may be at neighbouring configurations.
     let step = measurements.len().div_ceil(SOME_ROWS).max(1);
@@ -134,11 +145,29 @@ fn interpreted_fit(
     }
     let plain = fit_with_estimated_noise(&problem, &kept);
     let robust = fit_robustly(&problem, &kept, Loss::Tukey, &plain, None);
+    let residual = reach_scale.residual_size(&robust.fit.residuals, &robust.outliers);
+    // Positions in a unit that makes all of them one point agree with any arm.
+    if residual.rms_m > MUCH_BETTER * spread_m(&rows) {
+        return None;
+    }
     Some(InterpretedFit {
-        residual: reach_scale.residual_size(&robust.fit.residuals, &robust.outliers),
+        residual,
         correction_size: reach_scale.correction_size(&chain, &robust.fit.corrections),
         is_of_a_frame: !interpretation.free.is_empty(),
     })
+}
+
+/// Root mean square distance of the measured positions from their middle, m; infinite if none were measured.
+fn spread_m(rows: &[MeasuredRow]) -> f64 {
+    let along = |at: usize| {
+        let values: Vec<f64> = rows.iter().filter_map(|row| row.tip_in_base_m[at]).collect();
+        #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^53 rows")]
+        let count = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / count;
+        (count > 0.0).then(|| values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / count)
+    };
+    let squares: Vec<f64> = (0..3).filter_map(along).collect();
+    if squares.is_empty() { f64::INFINITY } else { squares.iter().sum::<f64>().sqrt() }
 }
 
 /// Of the groups that the options free and a condition names, all are to be given.
@@ -147,6 +176,7 @@ fn interpretations<'a>(nominal: &NominalChain<'a>, options: &CalibrationOptions)
         condition: condition.to_owned(),
         reinterpret,
         free: &[],
+        camera: options.camera,
     };
     let [revolute, prismatic] =
         [JointMotionKind::Revolute, JointMotionKind::Prismatic].map(|motion| nominal.coordinates_of(motion));
@@ -164,12 +194,26 @@ fn interpretations<'a>(nominal: &NominalChain<'a>, options: &CalibrationOptions)
         plain("roll, pitch and yaw are about the moving axes, in that order", moving_axes()),
         plain("roll, pitch and yaw are a rotation vector (columns rx, ry, rz)", rotation_vectors()),
     ];
-    let [orientations, poses] = inverse_conditions(options.camera);
-    all.push(plain(orientations, inverse_orientation()));
-    all.push(plain(poses, inverse_pose()));
+    match options.camera {
+        None => {
+            all.push(plain("the orientations are those of the base in the tip", inverse_orientation()));
+            all.push(plain("the poses are those of the base in the tip", inverse_pose()));
+        }
+        // Inverse poses are the poses of the other mount, so the two cannot be distinguished.
+        Some(mount) => {
+            let (condition, camera) = other_mount(mount);
+            let as_it_is: Reinterpret<'a> = Box::new(|row| Some(row.clone()));
+            let condition = condition.to_owned();
+            all.insert(
+                0,
+                Interpretation { condition, reinterpret: as_it_is, free: &[], camera: Some(camera) },
+            );
+            all.push(plain("the orientations are those of the camera in the target", inverse_orientation()));
+        }
+    }
     for (name, &coordinate) in nominal.joint_names().into_iter().zip(&nominal.coordinates) {
         let condition = format!("{name} is positive in the opposite direction");
-        all.push(Interpretation { condition, reinterpret: joints(vec![coordinate], -1.0), free: &[] });
+        all.push(plain(&condition, joints(vec![coordinate], -1.0)));
     }
     let as_it_is = || -> Reinterpret<'a> { Box::new(|row| Some(row.clone())) };
     let frames: [(&str, &'static [&'static str]); 3] = [
@@ -180,33 +224,30 @@ fn interpretations<'a>(nominal: &NominalChain<'a>, options: &CalibrationOptions)
     all.extend(frames.map(|(condition, free)| {
         let groups: Vec<&str> = options.free.iter().map(String::as_str).chain(free.iter().copied()).collect();
         let condition = format!("{condition} (--free {})", groups.join(","));
-        Interpretation { condition, reinterpret: as_it_is(), free }
+        Interpretation { condition, reinterpret: as_it_is(), free, camera: options.camera }
     }));
     // A camera sees the inverse pose, and neither of its frames is known.
     all.extend(options.camera.is_none().then(|| Interpretation {
         condition:
             "they are poses of a target seen by a camera on the robot (--camera eye-in-hand)".to_owned(),
-        reinterpret: inverse_pose(),
+        reinterpret: as_it_is(),
         free: &CAMERA_GROUPS,
+        camera: Some(CameraMount::EyeInHand),
     }));
     all
 }
 
-/// What it means that orientations or poses are the inverse ones.
-fn inverse_conditions(camera: Option<CameraMount>) -> [&'static str; 2] {
-    match camera {
-        None => [
-            "the orientations are those of the base in the tip",
-            "the poses are those of the base in the tip",
-        ],
-        Some(CameraMount::EyeInHand) => [
-            "the orientations are those of the camera in the target",
-            "the poses are those of the camera in the target, or the camera is beside the robot (--camera eye-to-hand)",
-        ],
-        Some(CameraMount::EyeToHand) => [
-            "the orientations are those of the camera in the target",
-            "the poses are those of the camera in the target, or the camera is on the robot (--camera eye-in-hand)",
-        ],
+/// The other place of a camera, and what it means that it is there.
+fn other_mount(mount: CameraMount) -> (&'static str, CameraMount) {
+    match mount {
+        CameraMount::EyeInHand => (
+            "the camera is beside the robot (--camera eye-to-hand), or the rows are poses of the camera in the target",
+            CameraMount::EyeToHand,
+        ),
+        CameraMount::EyeToHand => (
+            "the camera is on the robot (--camera eye-in-hand), or the rows are poses of the camera in the target",
+            CameraMount::EyeInHand,
+        ),
     }
 }
 

@@ -8,7 +8,10 @@ mod frames;
 mod interpretation;
 pub mod plot;
 mod residual_size;
+pub(crate) mod residual_summary;
 mod statements;
+mod target_scale;
+mod verdict;
 
 pub use calibrated_files::{CalibratedFiles, WrittenModel};
 pub use calibration_report::{
@@ -18,4 +21,3 @@ pub use calibration_report::{
 };
 pub(crate) use fixed::reported_fixed;
 pub use frames::EstimatedFrames;
-pub(crate) use frames::tip_from_measured;

@@ -97,6 +97,7 @@ fn verdict(report: &CalibrationReport, largest: Option<(&EstimatedCorrection, f6
         CalibrationVerdict::TooLarge => too_large(largest),
         CalibrationVerdict::Unverifiable => unverifiable(report),
         CalibrationVerdict::UnexplainedRows => unexplained_rows(report),
+        CalibrationVerdict::CameraUndetermined => undetermined(report),
         CalibrationVerdict::NoiseExceeded => format!(
             "the residual ({} root mean square) is larger than the stated noise allows: the free corrections \
              do not explain the measurements",
@@ -137,7 +138,9 @@ fn unexplained(report: &CalibrationReport) -> String {
             reason.condition,
             length_and_angle(reason.rms_m, reason.rms_rad)
         ),
-        None => "no common error of units, order, sign or frame explains them either".to_owned(),
+        None => "none of the errors of units, order, sign and frame that are tried explains them either; if the instrument is that \
+                 inaccurate, say so with --noise"
+            .to_owned(),
     };
     format!(
         "the free corrections do NOT explain the measurements: residual {corrected}, {nominal}; {interpretation}"
@@ -164,6 +167,15 @@ fn too_large(largest: Option<(&EstimatedCorrection, f64)>) -> String {
             length(correction.abs())
         )
     })
+}
+
+fn undetermined(report: &CalibrationReport) -> String {
+    let motions = report.camera.as_ref().map(|camera| camera.undetermined_in_words());
+    format!(
+        "the measurements do not determine the camera: {}. Turn the tool about two axes that are not parallel, by 30 deg or more. \
+         What an arm cannot turn, such as the height of a camera on a SCARA, must be measured otherwise",
+        motions.unwrap_or_default()
+    )
 }
 
 fn unverifiable(report: &CalibrationReport) -> String {

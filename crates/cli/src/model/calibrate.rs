@@ -41,7 +41,7 @@ use crate::{
 /// Exit code 1 if the corrections do not explain the measurements (the residual is too large for noise, or for
 /// the stated noise, the file is likely meant in other units, another order or frame, or a length would have to
 /// change by more than a tenth of the reach), 4 if no correction
-/// can be identified or the corrections cannot be verified.
+/// can be identified, the corrections cannot be verified, or a camera is not determined.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
@@ -146,7 +146,9 @@ fn exit_code(verdict: CalibrationVerdict) -> u8 {
         | CalibrationVerdict::Misinterpreted
         | CalibrationVerdict::TooLarge
         | CalibrationVerdict::NoiseExceeded => FAILED,
-        CalibrationVerdict::Unverifiable | CalibrationVerdict::NothingIdentified => NOTHING,
+        CalibrationVerdict::CameraUndetermined
+        | CalibrationVerdict::Unverifiable
+        | CalibrationVerdict::NothingIdentified => NOTHING,
     }
 }
 

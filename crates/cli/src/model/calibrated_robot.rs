@@ -186,7 +186,7 @@ fn robot_file(corrected: &CorrectedRobot, folder: &Path, urdf: &str) -> String {
     let twists: Vec<_> = chain.twists_in_base.iter().map(|twist| [twist.angular, twist.linear]).collect();
     let home = chain.base_from_tip_at_zero.to_isometry();
     let section = poe_section(&description.moving_chain(), &twists, &home, &description.robot);
-    let urdf = congruent::description::toml_string(urdf);
+    let urdf = congruent::input::toml_string(urdf);
     own_robot_file_text(&description, &section) + &format!("\n[[reference]]\nfile = {urdf}\n")
 }
 

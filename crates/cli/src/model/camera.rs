@@ -7,9 +7,10 @@ use crate::input::named;
 /// The camera that measured the rows.
 #[derive(Debug, clap::Args)]
 pub(super) struct CameraArgument {
-    /// The rows are poses (or points) of a target in the frame of a camera. eye-in-hand: the camera is on the tip and the target
-    /// fixed to the base; eye-to-hand: the camera is beside the robot and the target is on the tip. Frees the poses of
-    /// both, as the groups base and tool.
+    /// The rows are poses (or points) of a target in the frame of a camera, camera_from_target. eye-in-hand: the camera is on the
+    /// tip (its pose is the group tool) and the target is fixed to the base (group base, as the base in the target);
+    /// eye-to-hand: the camera is beside the robot (group base, as the base in the camera) and the target on the tip (group tool).
+    /// Both groups are free.
     #[arg(long, value_name = "MOUNT", requires = "measurements", value_parser = named::<CameraMount>())]
     camera: Option<CameraMount>,
 }

@@ -20,6 +20,8 @@ pub fn measured_headline(check: &MeasuredCheck) -> Headline {
         [] => String::new(),
         frames => format!(" after {} fitted", was(frames)),
     };
+    let is_open = check.camera.as_ref().is_some_and(|camera| !camera.undetermined.is_empty());
+    let fitted = if is_open { fitted + ", which these measurements do not determine" } else { fitted };
     let tolerance = tolerance(check.tolerance);
     let (rows, frame) = (counted(check.rows, "measurement"), &check.measured_frame);
     match check.verdict {

@@ -6,8 +6,8 @@ use congruent_agreement::{
     SourcePair,
     compare::{Agreement, CheckReport},
 };
-use congruent_description::{JointElement, MappedJoint, RobotDescription, toml_key, toml_string};
-use congruent_input::{display::length, number::significant};
+use congruent_description::{JointElement, MappedJoint, RobotDescription};
+use congruent_input::{display::length, number::significant, toml_key, toml_string};
 use congruent_kinematics::{Pose, PoseError, ReportedPose};
 use congruent_mapping::{FoundMapping, MatchedBy};
 use schemars::JsonSchema;

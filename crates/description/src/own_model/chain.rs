@@ -6,14 +6,13 @@ use congruent_input::{
     Diagnostic, Diagnostics, SourceFile, WrittenTransform, codes::toml::UNKNOWN_KEY,
     rotation_from_rpy_fixed_xyz, units::Unit,
 };
-use congruent_robot::{DhConvention, DhRowKind, JointForm, JointRounding};
+use congruent_robot::{DhConvention, DhRowKind, JointForm, JointRounding, motions_of_pose};
 use nalgebra::{Isometry3, Translation3, Vector3};
 use toml::Spanned;
 
 use super::rounding::{ScrewDigits, along_x, along_z};
 use crate::{
     codes,
-    pose_rounding::motions_of_pose,
     robot_file::{
         RobotFilePlaces, ScrewFrame, WrittenDh, WrittenPoe, WrittenRow, WrittenScrew, base_from_twist,
         screw_twist, space_twist,

@@ -1,14 +1,11 @@
 //! What the digits of a table or of screws leave open: small motions in the base, at zero.
 
 use congruent_input::{TypedNumber, half_places, half_places_of_point, units::Unit};
-use congruent_robot::{DhRowKind, SmallMotion};
+use congruent_robot::{DhRowKind, SmallMotion, motions_of_pose};
 use nalgebra::{Isometry3, Vector3};
 use toml::Spanned;
 
-use crate::{
-    pose_rounding::motions_of_pose,
-    robot_file::{WrittenPoe, WrittenScrew, WrittenTwist, halves_at, typed_transform, typed_vector},
-};
+use crate::robot_file::{WrittenPoe, WrittenScrew, WrittenTwist, halves_at, typed_transform, typed_vector};
 
 /// A small motion along z of a frame, and one about it.
 pub(super) fn along_z([shift_m, turn_rad]: [f64; 2], base_from_frame: &Isometry3<f64>) -> Vec<SmallMotion> {

@@ -4,12 +4,11 @@ use congruent_input::{
     TypedNumber, half_places,
     units::{Unit, UnitSystem},
 };
-use congruent_robot::{Joint, JointParts, JointRounding, SmallMotion};
+use congruent_robot::{Joint, JointParts, JointRounding, SmallMotion, motions_of_pose};
 use nalgebra::Vector3;
 use roxmltree::Node;
 
 use super::node::element;
-use crate::pose_rounding::motions_of_pose;
 
 /// Half of the last place of the typed values of a joint: how far each true value may be from the typed one.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

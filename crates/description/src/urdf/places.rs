@@ -9,7 +9,7 @@ use super::{
     digits::JointDigits,
     node::{element, elements, last, place, tag},
 };
-use crate::written_names::WrittenNames;
+use congruent_robot::WrittenNames;
 
 /// The text of a URDF, in which joints and links are found.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -10,6 +10,7 @@ mod number_mistake;
 pub(crate) mod overrides;
 pub(crate) mod rpy;
 pub(crate) mod serde_message;
+pub(crate) mod toml_literal;
 pub mod toml_text;
 pub(crate) mod transform;
 pub(crate) mod typing_error;

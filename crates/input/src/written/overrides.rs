@@ -3,12 +3,16 @@
 use std::ops::Range;
 
 use toml::{
-    Spanned,
+    Spanned, Value,
     de::{DeTable, DeValue},
 };
 
-use super::toml_text;
-use crate::{codes, diagnostic::Diagnostic};
+use super::{toml_literal::toml_key, toml_text};
+use crate::{
+    codes,
+    diagnostic::Diagnostic,
+    edits::{TextEdit, edited},
+};
 
 /// Characters that a value without quotes does not have: with one of these it was meant as TOML.
 const NOT_IN_WORDS: [char; 9] = ['"', '\'', '[', ']', '{', '}', '=', '#', '\n'];
@@ -75,10 +79,38 @@ impl Override {
         self.path.iter().map(String::as_str)
     }
 
-    /// The value, as TOML.
-    pub fn value(&self) -> Option<toml::Value> {
-        let table: toml::Table = self.document.parse().ok()?;
-        table.into_iter().next().map(|(_, value)| value)
+    /// The value as a number.
+    ///
+    /// # Errors
+    /// Why it is none.
+    pub fn number(&self) -> Result<f64, String> {
+        number(&self.value()?)
+    }
+
+    /// Three coordinates from a list, or those of `before` with the one that `entry` counts, from 1.
+    ///
+    /// # Errors
+    /// Why the value, or the entry, is none.
+    pub fn coordinates(&self, mut before: [f64; 3], entry: Option<&str>) -> Result<[f64; 3], String> {
+        match (entry, self.value()?) {
+            (Some(entry), value) => {
+                let at = entry.parse::<usize>().ok().and_then(|entry| entry.checked_sub(1));
+                let coordinate = at.and_then(|at| before.get_mut(at));
+                *coordinate.ok_or_else(|| format!("\"{entry}\" is no entry from 1 to 3"))? = number(&value)?;
+            }
+            (None, Value::Array(items)) if items.len() == 3 => {
+                for (coordinate, item) in before.iter_mut().zip(&items) {
+                    *coordinate = number(item)?;
+                }
+            }
+            (None, other) => return Err(format!("{other} is not a list of three numbers")),
+        }
+        Ok(before)
+    }
+
+    fn value(&self) -> Result<Value, String> {
+        let table: toml::Table = self.document.parse().map_err(|_| "the value is not TOML".to_owned())?;
+        table.into_iter().next().map(|(_, value)| value).ok_or_else(|| "there is no value".to_owned())
     }
 
     /// The override of a value in what the key `outer` names, if the path goes through it: `dh.row.3.d_m` of
@@ -153,10 +185,7 @@ impl Override {
     }
 
     /// The value of a document that it replaces; `None` if a table has no such key yet.
-    ///
-    /// # Errors
-    /// As [`Override::apply`].
-    pub fn find<'d, 'a>(
+    fn find<'d, 'a>(
         &self,
         document: &'d Spanned<DeTable<'a>>,
     ) -> Result<Option<&'d Spanned<DeValue<'a>>>, Diagnostic> {
@@ -178,18 +207,28 @@ impl Override {
         Ok(Some(found))
     }
 
-    /// The value as it is written, without its key.
-    pub fn written_value(&self) -> &str {
-        self.document.split_once('=').map_or("", |(_, value)| value.trim())
-    }
-
-    /// The path as a dotted key of TOML.
-    pub fn dotted_key(&self) -> String {
-        let quoted = |key: &String| {
-            let is_bare = key.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-');
-            if is_bare { key.clone() } else { toml::Value::String(key.clone()).to_string() }
+    /// A text with the value in place of the present one, or at its beginning if it has no such key.
+    ///
+    /// # Errors
+    /// The text is not TOML, or has no place for the key.
+    pub fn edit_text(&self, text: &str) -> Result<String, Diagnostic> {
+        let document = toml_text::parse_document(text)?;
+        let place = self.find(&document)?.map(Spanned::span);
+        let value = self.document.split_once('=').map_or("", |(_, value)| value.trim());
+        let edit = match place {
+            Some(span) => TextEdit { span, text: value.to_owned() },
+            None => {
+                let key: Vec<String> = self.path.iter().map(|key| toml_key(key)).collect();
+                TextEdit { span: 0..0, text: format!("{} = {value}\n", key.join(".")) }
+            }
         };
-        self.path.iter().map(quoted).collect::<Vec<_>>().join(".")
+        let with_value = edited(text, &[edit]);
+        match toml_text::parse_document(&with_value) {
+            Ok(_) => Ok(with_value),
+            Err(_) => {
+                Err(self.refused("the file has no such key; write it there with its present value first"))
+            }
+        }
     }
 
     /// Whether both replace the same value.
@@ -204,6 +243,16 @@ impl Override {
              check.1.position_m=1e-6, check.agreement.position_m=1e-6",
         )
     }
+}
+
+fn number(value: &Value) -> Result<f64, String> {
+    #[expect(clippy::cast_precision_loss, reason = "no length or mass has 2^53 units")]
+    let number = match value {
+        Value::Float(number) => *number,
+        Value::Integer(number) => *number as f64,
+        other => return Err(format!("{other} is not a number")),
+    };
+    if number.is_finite() { Ok(number) } else { Err(format!("{number} is not finite")) }
 }
 
 /// What a person calls an entry: its kind, its name, its joint.

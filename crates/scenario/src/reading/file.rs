@@ -17,6 +17,7 @@ use super::{
     faults::read_fault,
     motion::read_motion,
     other_file::{refuse_folder, refuse_other_text},
+    robot_overrides::of_scenario,
     section::Section,
 };
 use crate::{
@@ -140,19 +141,6 @@ impl ScenarioFile {
 
 fn is_unknown_key(finding: &Diagnostic) -> bool {
     finding.code == UNKNOWN_KEY
-}
-
-/// The key of the robot's path, and of its values: `robot.dh.row.3.d_m`.
-const ROBOT: &str = "robot";
-
-/// The overrides of values of the scenario file, without those of its robot.
-pub(super) fn of_scenario(overrides: &[Override]) -> impl Iterator<Item = &Override> {
-    overrides.iter().filter(|change| change.inside(ROBOT).is_none())
-}
-
-/// The overrides of values of the robot, as its own files have them: `dh.row.3.d_m` for `robot.dh.row.3.d_m`.
-pub fn robot_overrides(overrides: &[Override]) -> Vec<Override> {
-    overrides.iter().filter_map(|change| change.inside(ROBOT)).collect()
 }
 
 /// Refuses a key that is set twice: which of the values is meant is not known.

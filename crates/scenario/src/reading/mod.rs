@@ -5,7 +5,9 @@ mod file;
 mod motion;
 mod name;
 mod other_file;
+mod robot_overrides;
 mod section;
 
-pub use file::{ScenarioFile, robot_overrides};
+pub use file::ScenarioFile;
 pub use name::scenario_name;
+pub use robot_overrides::robot_overrides;

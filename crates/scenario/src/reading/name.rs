@@ -4,7 +4,7 @@ use std::path::Path;
 
 use congruent_input::{FileAccess, Override, toml_text::parse_document};
 
-use super::file::{MOST_BYTES, of_scenario};
+use super::{file::MOST_BYTES, robot_overrides::of_scenario};
 
 /// The name of the scenario in a file that may have errors; `None` if the name cannot be read, or the file not a second time,
 /// as from a pipe.

@@ -14,7 +14,9 @@ use congruent_input::SourceFile;
 use congruent_mjcf::{MjBody, MjJoint, MjModel, MjPlace};
 
 use self::users::PlaceUsers;
-use crate::{parameter_places::ParameterPlace, written_names::WrittenNames};
+use congruent_robot::WrittenNames;
+
+use crate::parameter_places::ParameterPlace;
 
 /// The texts of an MJCF and of the files that it includes, in which values of links and joints are found.
 #[derive(Debug, Clone, PartialEq)]

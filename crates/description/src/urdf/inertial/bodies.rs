@@ -3,7 +3,7 @@
 
 use std::{collections::BTreeMap, fmt::Write};
 
-use congruent_input::{Capability, Diagnostic, Diagnostics, display::quantity, known_names};
+use congruent_input::{Capability, Diagnostic, Diagnostics, display::quantity, known_names, toml_key};
 use congruent_robot::{Inertia, LinkIndex, Robot, principal_moments};
 use nalgebra::Isometry3;
 use roxmltree::Node;
@@ -14,7 +14,6 @@ use super::{
 };
 use crate::{
     codes,
-    toml_literal::toml_key,
     urdf::node::{element, elements, place, tag},
 };
 
