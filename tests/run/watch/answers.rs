@@ -130,6 +130,33 @@ fn the_results_are_those_of_a_replay_of_the_same_lines() {
 }
 
 #[test]
+fn what_cannot_be_used_of_a_stream_counts_against_it_as_in_a_replay() {
+    let whole = || times(0.0, 100, 200).map(|time_s| line(time_s, swing(time_s)));
+    let every_second = |instead: &dyn Fn(String) -> String| -> Vec<String> {
+        whole().enumerate().map(|(at, line)| if at % 2 == 1 { instead(line) } else { line }).collect()
+    };
+    let damaged = every_second(&|line| line[..30].to_owned());
+    let without_joints = every_second(&|line| line[..line.find("\"q\"").unwrap()].to_owned() + "\"q\": {}}");
+    let stands_still: Vec<String> =
+        times(0.0, 100, 200).map(|time_s| line(time_s.min(0.99), swing(time_s))).collect();
+    let folder = ScratchFolder::new();
+    for (name, lines) in
+        [("damaged", damaged), ("without_joints", without_joints), ("stands_still", stands_still)]
+    {
+        let lines = lines.join("\n");
+        let log = folder.write(&format!("{name}.jsonl"), &lines);
+        let out = text(&folder.path().join(name));
+        let arguments = ["watch", "robots/ur5e", "--out", &out, "--format", "json"];
+        let watched = congruent_with_input(&arguments, &lines);
+        let replayed =
+            crate::support::command::congruent(&["replay", "robots/ur5e", &log, "--out", &out, "--force"]);
+        assert_eq!((watched.code, replayed.code), (1, 1), "{name}: {}{}", watched.stdout, replayed.stdout);
+        assert!(replayed.stdout.contains("used share 0.5 at the log"), "{name}: {}", replayed.stdout);
+        assert!(watched.stdout.contains("100 of 200 messages not used"), "{name}: {}", watched.stdout);
+    }
+}
+
+#[test]
 fn what_is_no_stream_of_the_robot_is_refused() {
     for (input, part) in [
         ("", "ended before its first message"),

@@ -102,6 +102,8 @@ impl Pass {
                 self.descriptions.take(description);
             }
             LogEvent::Other(message) => self.topic(message.topic, &message.time).other(message),
+            // What they are is said by a gap, or by who listens.
+            LogEvent::Unusable(_) => {}
             LogEvent::Gap(gap) => {
                 self.unreadable_parts += 1;
                 if self.unreadable_parts <= MOST_GAPS {
