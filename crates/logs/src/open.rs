@@ -78,7 +78,14 @@ pub fn is_table(path: &Path) -> bool {
 /// It cannot be read, or is of a format that is not; then the help says how to convert it.
 pub fn open_log(path: &Path, options: &LogOptions) -> Result<Box<dyn LogReader>, Diagnostic> {
     if parquet::is_dataset(path) {
-        return Ok(Box::new(TableReader::new(path, parquet::open(path)?, options)?));
+        return Ok(Box::new(TableReader::new(path, parquet::open(path, options.episode)?, options)?));
+    }
+    if options.episode.is_some() && path.exists() && !is_one_of(path, &[PARQUET]) {
+        return Err(parquet::episode_refused(
+            path,
+            "is no dataset: it has no episodes",
+            "leave --episode out: it is for Parquet and LeRobot",
+        ));
     }
     if path.is_dir() {
         return open_folder(path);
@@ -90,7 +97,11 @@ pub fn open_log(path: &Path, options: &LogOptions) -> Result<Box<dyn LogReader>,
         return Err(refused);
     }
     if is_table(path) {
-        let table = if is_one_of(path, &[PARQUET]) { parquet::open(path)? } else { csv::open(path)? };
+        let table = if is_one_of(path, &[PARQUET]) {
+            parquet::open(path, options.episode)?
+        } else {
+            csv::open(path)?
+        };
         return Ok(Box::new(TableReader::new(path, table, options)?));
     }
     if is_one_of(path, &JSON_LINES) {

@@ -24,6 +24,10 @@ pub struct SourceSettings {
     /// Rate of the rows of a table without times.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub rate_hz: Option<f64>,
+    /// The index of the episode of a dataset of LeRobot, or of a Parquet with a column `episode_index`, that is read alone; default: all,
+    /// one after the other.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub episode: Option<u64>,
     /// The run begins with the first sample at this time; default: with the first of all.
     #[serde(default, deserialize_with = "optional_finite", skip_serializing_if = "Option::is_none")]
     pub from_s: Option<f64>,
@@ -176,6 +180,7 @@ impl SourceSettings {
             log: log.into(),
             clock: None,
             rate_hz: None,
+            episode: None,
             from_s: None,
             until_s: None,
             maximum_gap_s: None,

@@ -3,6 +3,7 @@
 use std::{
     collections::VecDeque,
     fs::File,
+    ops::Range,
     path::{Path, PathBuf},
     sync::Arc,
     vec,
@@ -17,6 +18,7 @@ use parquet::{
 use super::{
     columns::{NumberColumns, STATE, TIMESTAMP, cells, list_length},
     dataset::{files_of, is_dataset, names_of},
+    episodes::{self, ChosenFile},
 };
 use crate::{
     codes,
@@ -31,6 +33,10 @@ const HEAD_ROWS: usize = 200;
 /// A file of which the rows are read one after the other.
 struct OpenFile {
     path: PathBuf,
+    /// Which of its rows are wanted: those of an episode.
+    wanted: Option<Vec<Range<u64>>>,
+    /// Rows so far.
+    number: u64,
     columns: NumberColumns,
     rows: RowIter<'static>,
 }
@@ -39,20 +45,21 @@ struct NumberRows {
     /// The rows of the beginning, which come again.
     head: VecDeque<Vec<String>>,
     file: Option<OpenFile>,
-    files: vec::IntoIter<PathBuf>,
+    files: vec::IntoIter<ChosenFile>,
     /// Names of the columns of the first file, which all have.
     names: Vec<String>,
     number: u64,
     gaps: Vec<Diagnostic>,
 }
 
-/// Opens a file, or the folder of a dataset of LeRobot.
+/// Opens a file, or the folder of a dataset of LeRobot; of one episode alone if its index is given.
 ///
 /// # Errors
-/// It has no file, or the first one cannot be read.
-pub(crate) fn open(path: &Path) -> Result<OpenTable, Diagnostic> {
+/// It has no file or no such episode, or the first file cannot be read.
+pub(crate) fn open(path: &Path, episode: Option<u64>) -> Result<OpenTable, Diagnostic> {
     let paths = if is_dataset(path) { files_of(path)? } else { vec![path.to_owned()] };
-    let mut files = paths.into_iter();
+    let (chosen, episodes) = episodes::choose(path, paths, episode)?;
+    let mut files = chosen.into_iter();
     let Some(first) = files.next() else {
         let message = format!("{} has no file data/*/*.parquet", path.display());
         return Err(Diagnostic::error(codes::log::PARQUET, message)
@@ -82,6 +89,7 @@ pub(crate) fn open(path: &Path) -> Result<OpenTable, Diagnostic> {
         },
         format: if *are_of_lerobot { LogFormat::LeRobot } else { LogFormat::Parquet },
         text: None,
+        episodes,
         rows: Box::new(NumberRows {
             head: rows.into(),
             names: names.clone(),
@@ -113,11 +121,11 @@ fn names_of_state(path: &Path, columns: &[String], row: &Row) -> Result<Vec<Stri
 }
 
 impl OpenFile {
-    fn new(path: PathBuf) -> Result<Self, Diagnostic> {
+    fn new(ChosenFile { path, rows: wanted }: ChosenFile) -> Result<Self, Diagnostic> {
         let file = open_regular(&path, u64::MAX)?;
         let opened = catch_panic(|| Self::parts(file));
         let (columns, rows) = opened.map_err(|fault| refused(&path, &fault))?;
-        Ok(Self { path, columns, rows })
+        Ok(Self { path, wanted, number: 0, columns, rows })
     }
 
     fn parts(file: File) -> Result<(NumberColumns, RowIter<'static>), String> {
@@ -133,8 +141,28 @@ impl OpenFile {
         Ok((columns, rows))
     }
 
+    /// The next row that is wanted.
     fn next(&mut self) -> Result<Option<Row>, String> {
-        catch_panic(|| self.rows.next().transpose().map_err(|fault| fault.to_string()))
+        loop {
+            let number = self.number;
+            self.number += 1;
+            if self.is_behind(number) {
+                return Ok(None);
+            }
+            let row = catch_panic(|| self.rows.next().transpose().map_err(|fault| fault.to_string()))?;
+            if row.is_none() || self.is_wanted(number) {
+                return Ok(row);
+            }
+        }
+    }
+
+    fn is_wanted(&self, row: u64) -> bool {
+        self.wanted.as_ref().is_none_or(|wanted| wanted.iter().any(|range| range.contains(&row)))
+    }
+
+    /// Whether no later row is wanted.
+    fn is_behind(&self, row: u64) -> bool {
+        self.wanted.as_ref().is_some_and(|wanted| wanted.last().is_none_or(|last| last.end <= row))
     }
 }
 
@@ -164,8 +192,8 @@ impl NumberRows {
 
     /// Opens the next file, unless it is of another kind than the first or cannot be read; `None` behind the last.
     fn open_next(&mut self) -> Option<()> {
-        let path = self.files.next()?;
-        match OpenFile::new(path) {
+        let file = self.files.next()?;
+        match OpenFile::new(file) {
             Ok(file) if file.columns.names == self.names => self.file = Some(file),
             Ok(file) => self.gaps.push(refused(&file.path, "its columns are not those of the files before")),
             Err(fault) => self.gaps.push(fault),

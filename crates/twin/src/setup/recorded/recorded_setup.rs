@@ -56,7 +56,7 @@ impl RecordedSetup {
         let settings = scenario.source.as_ref()?;
         let place = place.key("source");
         let joints = description.robot.movable_joint_names().map(str::to_owned).collect();
-        let options = LogOptions { rate_hz: settings.rate_hz, joints };
+        let options = LogOptions { rate_hz: settings.rate_hz, episode: settings.episode, joints };
         let (path, surveyed) = if let Some(surveyed) = stream {
             (PathBuf::from(&settings.log), surveyed.clone())
         } else {
