@@ -38,6 +38,10 @@ pub struct SourceSettings {
     /// least 20 ms.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub maximum_gap_s: Option<f64>,
+    /// Joints between base and tip that the log does not have, and that were at their `[start]` all the time. Any other of which there is
+    /// no value fails the check `recording`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub held: Vec<String>,
     /// The topics with joint states; default: the topics with the joints of the robot, if no joint is on two of them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub joints: Vec<LoggedJointSettings>,
@@ -184,6 +188,7 @@ impl SourceSettings {
             from_s: None,
             until_s: None,
             maximum_gap_s: None,
+            held: Vec::new(),
             joints: Vec::new(),
             pose: Vec::new(),
         }

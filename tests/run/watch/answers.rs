@@ -184,3 +184,36 @@ fn a_signal_ends_the_run_in_order_while_the_stream_is_open() {
     );
     assert_eq!(live.code(), 0);
 }
+
+#[test]
+fn a_joint_of_the_chain_that_never_comes_is_no_pass() {
+    // The log of an arm with fewer joints: what the last two did nobody knows.
+    let shorter = |lines: String| lines.replace("wrist_2_joint", "a").replace("wrist_3_joint", "b");
+    let lines: String = times(0.0, 100, 200).map(|time_s| line(time_s, swing(time_s)) + "\n").collect();
+    let lines = shorter(lines);
+    let folder = ScratchFolder::new();
+    let log = folder.write("short.jsonl", &lines);
+    let out = text(&folder.path().join("out"));
+    let watched = congruent_with_input(&["watch", "robots/ur5e"], &lines);
+    let run = |arguments: &[&str]| {
+        crate::support::command::congruent(&[arguments, &["--out", &out, "--no-recording"]].concat())
+    };
+    let replayed = run(&["replay", "robots/ur5e", &log]);
+    for answer in [&watched, &replayed] {
+        assert_eq!(answer.code, 1, "{}{}", answer.stdout, answer.stderr);
+        assert!(answer.stdout.contains("never in the log"), "{}", answer.stdout);
+    }
+    // Who knows that they stood still says so.
+    let scenario = folder.path().join("out/short.toml");
+    let written = std::fs::read_to_string(&scenario).unwrap();
+    let held = |names: &str| {
+        std::fs::write(&scenario, written.replace("[source]\n", &format!("[source]\nheld = {names}\n")))
+            .unwrap();
+        run(&["run", scenario.to_str().unwrap()])
+    };
+    let known = held("[\"wrist_2_joint\", \"wrist_3_joint\"]");
+    assert_eq!(known.code, 0, "{}{}", known.stdout, known.stderr);
+    let wrong = held("[\"elbow_joint\"]");
+    assert_eq!(wrong.code, 2, "{}", wrong.stdout);
+    assert!(wrong.stderr.contains("it lacks wrist_2_joint, wrist_3_joint"), "{}", wrong.stderr);
+}

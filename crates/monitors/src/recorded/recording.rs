@@ -27,6 +27,8 @@ pub(crate) struct RecordingMonitor {
     /// Parts behind the first, and the time between parts, which nobody has recorded.
     parts: u64,
     between_parts_s: f64,
+    /// Joints between base and tip that no instant has.
+    unknown: Vec<String>,
     /// The period of the samples, as a rule.
     period_s: f64,
 }
@@ -47,12 +49,17 @@ impl RecordingMonitor {
             begin_s: f64::NAN,
             parts: 0,
             between_parts_s: 0.0,
+            unknown: context.unknown.to_vec(),
             period_s: context.clock.step_s,
         }
     }
 
     /// The share of the time in which samples are: without gaps, and without instants that were left out elsewhere.
     fn used_share(&self) -> f64 {
+        if !self.unknown.is_empty() {
+            // No instant has every joint.
+            return 0.0;
+        }
         let all_s = self.before_s - self.begin_s - self.between_parts_s;
         let LeftOutInstants { incomplete, unusable } = self.left_out;
         #[expect(clippy::cast_precision_loss, reason = "no log has 2^52 samples")]
@@ -73,6 +80,12 @@ impl RecordingMonitor {
 
     fn notes(&self) -> Vec<String> {
         let mut notes = Vec::new();
+        if !self.unknown.is_empty() {
+            notes.push(format!(
+                "never in the log, though between base and tip: {}; name under [source] as `held` what stayed at its [start]",
+                self.unknown.join(", ")
+            ));
+        }
         let LeftOutInstants { incomplete, unusable } = self.left_out;
         let all = self.instants();
         if incomplete > 0 {
