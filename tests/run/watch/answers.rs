@@ -217,3 +217,22 @@ fn a_joint_of_the_chain_that_never_comes_is_no_pass() {
     assert_eq!(wrong.code, 2, "{}", wrong.stdout);
     assert!(wrong.stderr.contains("it lacks wrist_2_joint, wrist_3_joint"), "{}", wrong.stderr);
 }
+
+#[test]
+fn late_lines_of_a_stream_are_lost_and_a_replay_puts_them_in_order() {
+    // Each third line is of a time between the two before it.
+    let late = |at: usize, time_s: f64| if at % 3 == 2 { time_s - 0.015 } else { time_s };
+    let lines: String = times(0.0, 100, 201)
+        .enumerate()
+        .map(|(at, time_s)| line(late(at, time_s), swing(late(at, time_s))) + "\n")
+        .collect();
+    let watched = congruent_with_input(&["watch", "robots/ur5e"], &lines);
+    assert_eq!(watched.code, 1, "{}", watched.stdout);
+    assert!(watched.stdout.contains("67 of 201 messages not used"), "{}", watched.stdout);
+    assert!(watched.stdout.contains("134 samples judged, 67 late"), "{}", watched.stdout);
+    let folder = ScratchFolder::new();
+    let log = folder.write("late.jsonl", &lines);
+    let out = text(&folder.path().join("out"));
+    let replayed = crate::support::command::congruent(&["replay", "robots/ur5e", &log, "--out", &out]);
+    assert_eq!(replayed.code, 0, "{}", replayed.stdout);
+}

@@ -61,7 +61,8 @@ pub(super) struct InOrder<P, T> {
     /// Messages with a part that another message at their time has, and messages that came after a later one was given.
     pub(super) repeated: u64,
     pub(super) late: u64,
-    /// Messages among these that nobody can judge, since they were taken last: those at a time that stands still.
+    /// Messages among these that nobody can judge, since they were taken last: those that were late, and those at a
+    /// time that stands still.
     pub(super) lost: u64,
     /// Messages that repeat the time that was given last.
     repeated_now: u64,
@@ -122,6 +123,7 @@ impl<P: PartialEq, T> InOrder<P, T> {
         match time_s.total_cmp(&self.given_s) {
             Ordering::Less => {
                 self.late += 1;
+                self.lost += 1;
                 return;
             }
             Ordering::Equal if self.given.contains(&part) => {
@@ -180,7 +182,7 @@ mod tests {
             order.pop().is_some()
         };
         assert!(given(1.0) && given(1.001) && !given(1.0) && given(1.002));
-        assert_eq!(order.late, 1);
+        assert_eq!((order.late, order.lost), (1, 1));
     }
 
     #[test]
