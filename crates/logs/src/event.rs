@@ -205,6 +205,11 @@ pub trait LogReader {
     /// Its format.
     fn format(&self) -> LogFormat;
 
+    /// What was suspicious when it was opened.
+    fn warnings(&self) -> &[Diagnostic] {
+        &[]
+    }
+
     /// How a table is read; `None` for another format.
     fn table(&self) -> Option<&TableReading> {
         None

@@ -211,9 +211,8 @@ fn missing_files(folder: &Path, metadata: &str, files: &[PathBuf]) -> Option<Dia
     };
     let named: BTreeSet<PathBuf> = metadata.lines().filter_map(name).collect();
     // One that was decompressed has lost its second ending.
-    let is_there = |path: &&PathBuf| {
-        [path.to_path_buf(), path.with_extension("")].iter().any(|path| folder.join(path).is_file())
-    };
+    let is_there =
+        |path: &&PathBuf| folder.join(path).is_file() || folder.join(path.with_extension("")).is_file();
     let missing: Vec<&PathBuf> = named.iter().filter(|path| !is_there(path)).collect();
     let is_of_bag = |path: &&PathBuf| is_one_of(path, &[MCAPS[0], DB3, COMPRESSED[0], COMPRESSED[1]]);
     if missing.is_empty() || files.iter().filter(is_of_bag).count() >= named.len() {

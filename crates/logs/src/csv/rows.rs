@@ -63,6 +63,8 @@ pub(crate) fn open(path: &Path) -> Result<OpenTable, Diagnostic> {
         rows: Box::new(rows),
         format: LogFormat::Table,
         text: Some(text),
+        not_read: Vec::new(),
+        warnings: Vec::new(),
         episodes: None,
     })
 }

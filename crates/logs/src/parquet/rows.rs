@@ -17,7 +17,7 @@ use parquet::{
 
 use super::{
     columns::{NumberColumns, STATE, TIMESTAMP, cells, list_length},
-    dataset::{files_of, is_dataset, names_of},
+    dataset::{INFO, ListNames, files_of, is_dataset, names_of},
     episodes::{self, ChosenFile},
 };
 use crate::{
@@ -76,7 +76,8 @@ pub(crate) fn open(path: &Path, episode: Option<u64>) -> Result<OpenTable, Diagn
         return Err(refused(&file.path, "it has no row"));
     };
     let NumberColumns { names, are_of_lerobot, .. } = &file.columns;
-    let column_names = if *are_of_lerobot { names_of_state(&file.path, names, row)? } else { names.clone() };
+    let state = if *are_of_lerobot { names_of_state(&file.path, names, row)? } else { StateNames::default() };
+    let column_names = if *are_of_lerobot { state.columns } else { names.clone() };
     let rows: Vec<Vec<String>> = head.iter().map(cells).collect();
     let source = SourceFile { path: path.to_owned(), text: String::new(), is_foreign: false };
     Ok(OpenTable {
@@ -90,6 +91,8 @@ pub(crate) fn open(path: &Path, episode: Option<u64>) -> Result<OpenTable, Diagn
         format: if *are_of_lerobot { LogFormat::LeRobot } else { LogFormat::Parquet },
         text: None,
         episodes,
+        not_read: file.columns.others.clone(),
+        warnings: state.fault.into_iter().collect(),
         rows: Box::new(NumberRows {
             head: rows.into(),
             names: names.clone(),
@@ -101,11 +104,22 @@ pub(crate) fn open(path: &Path, episode: Option<u64>) -> Result<OpenTable, Diagn
     })
 }
 
+/// The columns of a dataset.
+#[derive(Default)]
+struct StateNames {
+    columns: Vec<String>,
+    /// Why the joints have no names.
+    fault: Option<Diagnostic>,
+}
+
 /// The names of the columns of a dataset, in the order of the file: the state has one for each of its values, each a position if its
 /// name does not say another quantity.
-fn names_of_state(path: &Path, columns: &[String], row: &Row) -> Result<Vec<String>, Diagnostic> {
+fn names_of_state(path: &Path, columns: &[String], row: &Row) -> Result<StateNames, Diagnostic> {
     let length = list_length(row).unwrap_or_default();
-    let written = names_of(path, STATE)?;
+    let ListNames { names: written, mut fault } = names_of(path, STATE)?;
+    if fault.is_none() && !written.is_empty() && written.len() != length {
+        fault = Some(format!("names {} values of {STATE}, which has {length}", written.len()));
+    }
     let name = |at: usize| match written.get(at).filter(|_| written.len() == length) {
         Some(name) if says_quantity(name) => name.clone(),
         Some(name) => format!("{name} position"),
@@ -117,7 +131,14 @@ fn names_of_state(path: &Path, columns: &[String], row: &Row) -> Result<Vec<Stri
         TIMESTAMP => vec![format!("{TIMESTAMP}_s")],
         other => vec![other.to_owned()],
     };
-    Ok(columns.iter().flat_map(of_column).collect())
+    let unnamed = |fault: String| {
+        let last = format!("joint_{length}");
+        let message = format!("{}: {INFO} {fault}: the joints are called joint_1 to {last}", path.display());
+        Diagnostic::warning(codes::log::STATE_NAMES, message).with_help(format!(
+            "write their names into {INFO}, under features, {STATE}, names, in the order of the values"
+        ))
+    };
+    Ok(StateNames { columns: columns.iter().flat_map(of_column).collect(), fault: fault.map(unnamed) })
 }
 
 impl OpenFile {

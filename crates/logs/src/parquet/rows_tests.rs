@@ -124,6 +124,32 @@ fn names_and_episodes_of_a_dataset() {
 }
 
 #[test]
+fn what_is_not_read_of_a_dataset_is_said() {
+    let with_info = |info: &str| {
+        let folder = dataset(&[("file-000.parquet", episode(0, 1.0))]);
+        fs::write(folder.path().join("meta/info.json"), info).unwrap();
+        surveyed(folder.path())
+    };
+    let whole = with_info(INFO);
+    assert_eq!(whole.table.unwrap().unused, ["observation.image (text or bytes)", "episode_index"]);
+    let short = INFO.replace("\"shoulder_pan.pos\", ", "");
+    for (info, part) in [
+        ("{", "is no JSON"),
+        ("{}", "has no names of the values of observation.state"),
+        (short.as_str(), "names 1 values of observation.state, which has 2"),
+    ] {
+        let survey = with_info(info);
+        assert_eq!(
+            (codes_of(&survey).last(), survey.unreadable_parts),
+            (Some(&"log::motor_units"), 0),
+            "{info}"
+        );
+        let said = survey.warnings.iter().find(|warning| warning.code == "log::state_names").unwrap();
+        assert!(said.message.contains(part) && said.message.contains("joint_1 to joint_2"), "{said:?}");
+    }
+}
+
+#[test]
 fn one_episode_is_read_alone_wherever_it_is() {
     let both = [episode(3, 0.3), episode(4, 0.4)].concat();
     let folder = dataset(&[("file-000.parquet", episode(2, 0.2)), ("file-001.parquet", both)]);

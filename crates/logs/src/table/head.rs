@@ -58,6 +58,10 @@ pub(crate) struct OpenTable {
     pub(crate) format: LogFormat,
     /// How a text is written; `None` if it is none.
     pub(crate) text: Option<TableText>,
+    /// Columns of which nothing is read, beside those of the head.
+    pub(crate) not_read: Vec<String>,
+    /// What is suspicious about its head.
+    pub(crate) warnings: Vec<Diagnostic>,
     /// The episodes that it has.
     pub(crate) episodes: Option<TableEpisodes>,
 }

@@ -35,6 +35,7 @@ pub(crate) struct TableReader {
     /// Rows that were read.
     rows: u32,
     faults: RowFaults,
+    warnings: Vec<Diagnostic>,
     is_at_end: bool,
 }
 
@@ -75,7 +76,7 @@ impl TableReader {
     /// # Errors
     /// It has no column of a joint, or its rows have no time.
     pub(crate) fn new(path: &Path, table: OpenTable, options: &LogOptions) -> Result<Self, Diagnostic> {
-        let OpenTable { source, head, rows, format, text, episodes } = table;
+        let OpenTable { source, head, rows, format, text, not_read, warnings, episodes } = table;
         let time = row_time(&head, options).map_err(|fault| fault.in_file(&source))?;
         let of_time = match time {
             RowTime::Column(column) => Some(column.column),
@@ -86,7 +87,8 @@ impl TableReader {
                 FoundTime::None => None,
             },
         };
-        let columns = find_columns(&head, of_time, &options.joints);
+        let mut columns = find_columns(&head, of_time, &options.joints);
+        columns.unused.extend(not_read);
         if columns.cells.is_empty() {
             return Err(no_columns(&columns, options).in_file(&source));
         }
@@ -105,6 +107,7 @@ impl TableReader {
             first_ns: None,
             rows: 0,
             faults: RowFaults::default(),
+            warnings,
             is_at_end: false,
         })
     }
@@ -202,6 +205,10 @@ impl LogReader for TableReader {
             self.step()?;
         }
         Ok(self.events.pop_front())
+    }
+
+    fn warnings(&self) -> &[Diagnostic] {
+        &self.warnings
     }
 
     fn table(&self) -> Option<&TableReading> {
