@@ -126,7 +126,9 @@ fn the_results_are_those_of_a_replay_of_the_same_lines() {
         report["checks"].clone()
     };
     assert_eq!(checks(watched_report), checks(replayed_report));
-    assert!(std::path::Path::new(&watched).join("watch/report.html").is_file());
+    let page = std::fs::read_to_string(std::path::Path::new(&watched).join("watch/report.html")).unwrap();
+    // There was no physics.
+    assert!(!page.contains("twin (physics)") && page.contains("Model and log where"));
 }
 
 #[test]
@@ -235,4 +237,11 @@ fn late_lines_of_a_stream_are_lost_and_a_replay_puts_them_in_order() {
     let out = text(&folder.path().join("out"));
     let replayed = crate::support::command::congruent(&["replay", "robots/ur5e", &log, "--out", &out]);
     assert_eq!(replayed.code, 0, "{}", replayed.stdout);
+}
+
+#[test]
+fn times_in_milliseconds_are_said() {
+    let lines: String = times(0.0, 100, 100).map(|time_s| line(1e3 * time_s, swing(time_s)) + "\n").collect();
+    let answer = congruent_with_input(&["watch", "robots/ur5e"], &lines);
+    assert!(answer.stderr.contains("10 s apart: as ms they would be those of 100 Hz"), "{}", answer.stderr);
 }
