@@ -72,7 +72,7 @@ fn a_factor_is_found_at_every_rate_and_a_correct_log_has_none() {
 }
 
 #[test]
-fn a_motion_between_the_samples_is_not_judged_but_for_its_sign() {
+fn a_motion_between_the_samples_is_not_judged_except_for_its_sign() {
     let found = |factor: f64| velocity(&log(2, 4.0, Reported { factor, late_s: 0.0 }));
     let check = found(1.0);
     assert_eq!(check["status"], "skipped", "{check}");

@@ -32,7 +32,7 @@ pub enum Interruption {
 pub struct LeftOutInstants {
     /// A joint was not known at them.
     pub incomplete: u64,
-    /// Their messages could not be used: unreadable, late, lost, or at a time that stands still.
+    /// Their messages could not be used: unreadable, late, lost, or at a time that does not advance.
     pub unusable: u64,
 }
 

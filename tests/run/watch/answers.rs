@@ -139,12 +139,10 @@ fn what_cannot_be_used_of_a_stream_counts_against_it_as_in_a_replay() {
     };
     let damaged = every_second(&|line| line[..30].to_owned());
     let without_joints = every_second(&|line| line[..line.find("\"q\"").unwrap()].to_owned() + "\"q\": {}}");
-    let stands_still: Vec<String> =
+    let stopped: Vec<String> =
         times(0.0, 100, 200).map(|time_s| line(time_s.min(0.99), swing(time_s))).collect();
     let folder = ScratchFolder::new();
-    for (name, lines) in
-        [("damaged", damaged), ("without_joints", without_joints), ("stands_still", stands_still)]
-    {
+    for (name, lines) in [("damaged", damaged), ("without_joints", without_joints), ("stopped", stopped)] {
         let lines = lines.join("\n");
         let log = folder.write(&format!("{name}.jsonl"), &lines);
         let out = text(&folder.path().join(name));

@@ -11,7 +11,7 @@ const WINDOW: usize = 64;
 pub(super) const SPAN_S: f64 = 0.25;
 
 /// Messages at one time behind the first that are taken for those of a coarse clock. Kind: choice; a clock that counts 10 ms
-/// repeats each time nine times at 1 kHz. A clock that repeats more stands still, and nobody knows when its messages were true.
+/// repeats each time nine times at 1 kHz. A clock that repeats more does not advance, and nobody knows when its messages were true.
 const MOST_REPEATED: u64 = 10;
 
 /// A message at a time.
@@ -62,7 +62,7 @@ pub(super) struct InOrder<P, T> {
     pub(super) repeated: u64,
     pub(super) late: u64,
     /// Messages among these that nobody can judge, since they were taken last: those that were late, and those at a
-    /// time that stands still.
+    /// time that does not advance.
     pub(super) lost: u64,
     /// Messages that repeat the time that was given last.
     repeated_now: u64,
@@ -131,7 +131,7 @@ impl<P: PartialEq, T> InOrder<P, T> {
                 self.repeated_now += 1;
                 self.lost += match self.repeated_now.checked_sub(MOST_REPEATED) {
                     None | Some(0) => 0,
-                    // The clock stands still, and has for all of them.
+                    // The clock has not advanced for any of them.
                     Some(1) => self.repeated_now,
                     Some(_) => 1,
                 };
@@ -186,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn a_coarse_clock_loses_nothing_and_one_that_stands_still_all_of_its_messages() {
+    fn a_coarse_clock_loses_nothing_and_one_that_stopped_all_of_its_messages() {
         let lost = |repeated: u64| {
             let mut order = InOrder::at_once();
             (0..=repeated).for_each(|at| order.push(1.0, (), at));

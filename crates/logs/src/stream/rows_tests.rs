@@ -128,7 +128,7 @@ fn messages_that_cannot_be_used_are_counted_beside_the_rows() {
     // Of a gripper on the same topic: the arm is known between the messages beside it.
     take(0.03, message(&["gripper"], &[0.0]));
     take(0.04, message(&["one"], &[0.4]));
-    // The clock stands still to the end.
+    // The clock does not advance to the end.
     (0..100).for_each(|_| take(0.04, message(&["one"], &[0.5])));
     rows.lose(3);
     rows.flush();

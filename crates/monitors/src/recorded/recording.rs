@@ -93,7 +93,7 @@ impl RecordingMonitor {
         }
         if unusable > 0 {
             notes.push(format!(
-                "{unusable} of {all} messages not used: unreadable, late, lost, or at a time that stands still"
+                "{unusable} of {all} messages not used: unreadable, late, lost, or at a time that does not advance"
             ));
         }
         if self.parts > 0 {
