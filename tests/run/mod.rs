@@ -16,4 +16,5 @@ mod servo;
 #[cfg(feature = "db3")]
 mod sqlite_bags;
 mod trajectories;
+mod velocity_rates;
 mod watch;

@@ -54,5 +54,13 @@ congruent_input::codes! {
             "A stream broke off with an error of the system. What came until then was judged. Look at the program that writes it.\n    my_driver | congruent watch robots/ur5e";
         RTDE = "CGR-LOG-026", "log::rtde" unreadable,
             "The controller of a Universal Robot cannot be reached, or does not give what is asked for by RTDE (port 30004). Give the address of the robot, allow RTDE in its settings of network services, and look whether a firewall is between. A variable that it does not know is named.\n    congruent watch robots/ur5e --rtde 192.168.1.10";
+        MISSING_FILES = "CGR-LOG-028", "log::missing_files",
+            "The metadata.yaml of a bag names files that are not in its folder: it was copied in part. What is there is read; the rest of the recording is not judged. Copy the whole folder again.\n    wrong: monday/metadata.yaml, monday/monday_1.mcap\n    right: monday/metadata.yaml, monday/monday_0.mcap, monday/monday_1.mcap";
+        STATE_NAMES = "CGR-LOG-029", "log::state_names",
+            "The meta/info.json of a dataset of LeRobot does not name the values of observation.state, one for each, or is no JSON. They are called joint_1, joint_2 and so on, by which no joint of a robot is found.\n    wrong: \"observation.state\": {\"shape\": [2], \"names\": null}\n    right: \"observation.state\": {\"shape\": [2], \"names\": [\"shoulder_pan\", \"gripper\"]}";
+        MILLISECONDS = "CGR-LOG-030", "log::milliseconds",
+            "The lines of a log or stream in JSON Lines are 1 to 1000 s apart by their time_s. Robots are recorded faster: such times are mostly in ms. They are read as s, by which every velocity is a thousandth of what it was.\n    wrong: {\"time_s\": 1250, \"q\": {\"elbow_joint\": 0.4}}\n    right: {\"time_s\": 1.25, \"q\": {\"elbow_joint\": 0.4}}";
+        EPISODE = "CGR-LOG-027", "log::episode" unreadable,
+            "The episode that is to be read alone is not in the log: the dataset has no episode with this index, or the log is no Parquet with a column episode_index. The message has the range of indices.\n    wrong: congruent replay robots/so101 pusht --episode 50\n    right: congruent replay robots/so101 pusht --episode 49";
     }
 }

@@ -59,6 +59,8 @@ pub enum LogEvent {
     Other(OtherMessage),
     /// A part of the log that cannot be read.
     Gap(LogGap),
+    /// So many messages that have come and cannot be read, or that their sender had and that have not come.
+    Unusable(u64),
 }
 
 /// A message with joint states. The arrays are as in the log: each is as long as `names`, empty, or of a wrong length.
@@ -202,6 +204,11 @@ pub trait LogReader {
 
     /// Its format.
     fn format(&self) -> LogFormat;
+
+    /// What was suspicious when it was opened.
+    fn warnings(&self) -> &[Diagnostic] {
+        &[]
+    }
 
     /// How a table is read; `None` for another format.
     fn table(&self) -> Option<&TableReading> {

@@ -45,8 +45,8 @@ pub use survey::{
     UndecodedMessages, UnknownJoint, survey_line, survey_log, survey_words,
 };
 pub use table_reading::{
-    DecimalMark, LoggedQuantity, Preset, Separator, TableColumn, TableEncoding, TableReading, TableText,
-    TableTime, TimeUnit, TimeUnitFrom,
+    DecimalMark, LoggedQuantity, Preset, Separator, TableColumn, TableEncoding, TableEpisodes, TableReading,
+    TableText, TableTime, TimeUnit, TimeUnitFrom,
 };
 
 pub use written::{

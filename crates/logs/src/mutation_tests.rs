@@ -74,7 +74,8 @@ impl Scratch {
 /// Surveys `count` mutations; returns how many were read.
 fn survey_mutations(bytes: &[u8], ending: &'static str, count: usize) -> usize {
     let (scratch, mut numbers) = (Scratch::new(ending), Numbers(0x9e37_79b9_7f4a_7c15));
-    let options = LogOptions { rate_hz: None, joints: vec!["elbow".to_owned(), "wrist".to_owned()] };
+    let options =
+        LogOptions { joints: vec!["elbow".to_owned(), "wrist".to_owned()], ..LogOptions::default() };
     assert!(scratch.survey(bytes, &options), "the whole log is read");
     (0..count).filter(|_| scratch.survey(&mutated(bytes, &mut numbers), &options)).count()
 }

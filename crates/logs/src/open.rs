@@ -1,6 +1,7 @@
 //! Which files are logs, which of them are read, and how the others become one that is.
 
 use std::{
+    collections::BTreeSet,
     io::Read,
     path::{Path, PathBuf},
 };
@@ -78,7 +79,14 @@ pub fn is_table(path: &Path) -> bool {
 /// It cannot be read, or is of a format that is not; then the help says how to convert it.
 pub fn open_log(path: &Path, options: &LogOptions) -> Result<Box<dyn LogReader>, Diagnostic> {
     if parquet::is_dataset(path) {
-        return Ok(Box::new(TableReader::new(path, parquet::open(path)?, options)?));
+        return Ok(Box::new(TableReader::new(path, parquet::open(path, options.episode)?, options)?));
+    }
+    if options.episode.is_some() && path.exists() && !is_one_of(path, &[PARQUET]) {
+        return Err(parquet::episode_refused(
+            path,
+            "is no dataset: it has no episodes",
+            "leave --episode out: it is for Parquet and LeRobot",
+        ));
     }
     if path.is_dir() {
         return open_folder(path);
@@ -90,7 +98,11 @@ pub fn open_log(path: &Path, options: &LogOptions) -> Result<Box<dyn LogReader>,
         return Err(refused);
     }
     if is_table(path) {
-        let table = if is_one_of(path, &[PARQUET]) { parquet::open(path)? } else { csv::open(path)? };
+        let table = if is_one_of(path, &[PARQUET]) {
+            parquet::open(path, options.episode)?
+        } else {
+            csv::open(path)?
+        };
         return Ok(Box::new(TableReader::new(path, table, options)?));
     }
     if is_one_of(path, &JSON_LINES) {
@@ -131,10 +143,12 @@ fn checked_mcap(path: &Path) -> Result<PathBuf, Diagnostic> {
     Ok(path.to_owned())
 }
 
-/// Opens the files of a folder that rosbag2 wrote, in the order of their numbers. What metadata.yaml says about them is not used: files
-/// are renamed, rosbag2 itself writes it without names after a failure, and not at all if it is killed.
+/// Opens the files of a folder that rosbag2 wrote, in the order of their numbers. What metadata.yaml says about them decides nothing: files
+/// are renamed, rosbag2 itself writes it without names after a failure, and not at all if it is killed. Files that it names and that
+/// are not there are a warning.
 fn open_folder(folder: &Path) -> Result<Box<dyn LogReader>, Diagnostic> {
-    if is_compressed_by_message(folder)? {
+    let metadata = metadata_of(folder)?;
+    if is_compressed_by_message(&metadata) {
         let message = format!("{}: each message is compressed on its own", folder.display());
         return Err(Diagnostic::error(codes::log::COMPRESSED_MESSAGES, message).with_help(CONVERT));
     }
@@ -144,6 +158,7 @@ fn open_folder(folder: &Path) -> Result<Box<dyn LogReader>, Diagnostic> {
         |path: &&PathBuf| is_one_of(path, &COMPRESSED) && !files.contains(&path.with_extension(""));
     let mut refused: Vec<Diagnostic> =
         files.iter().filter(is_compressed).filter_map(|path| not_read(path)).collect();
+    refused.extend(missing_files(folder, &metadata, &files));
     let named = |ending: &str| -> Vec<PathBuf> {
         files.iter().filter(|path| is_one_of(path, &[ending])).cloned().collect()
     };
@@ -171,13 +186,45 @@ fn open_folder(folder: &Path) -> Result<Box<dyn LogReader>, Diagnostic> {
     Ok(Box::new(McapReader::new(whole, refused)))
 }
 
-fn is_compressed_by_message(folder: &Path) -> Result<bool, Diagnostic> {
+/// The text of metadata.yaml; empty without one.
+fn metadata_of(folder: &Path) -> Result<String, Diagnostic> {
     let metadata = folder.join(METADATA);
     if !metadata.exists() {
-        return Ok(false);
+        return Ok(String::new());
     }
-    let metadata = read_text(&metadata, METADATA_BYTES)?;
-    Ok(metadata.text.lines().any(|line| line.trim().to_lowercase() == "compression_mode: message"))
+    Ok(read_text(&metadata, METADATA_BYTES)?.text.clone())
+}
+
+fn is_compressed_by_message(metadata: &str) -> bool {
+    metadata.lines().any(|line| line.trim().to_lowercase() == "compression_mode: message")
+}
+
+/// The files that metadata.yaml names and that are not in the folder. Of a bag whose files were all renamed none is missing: as many
+/// are there as it names.
+fn missing_files(folder: &Path, metadata: &str, files: &[PathBuf]) -> Option<Diagnostic> {
+    // The lists `relative_file_paths` and `files` with `path: NAME` have the same names.
+    let name = |line: &str| {
+        let line = line.trim().trim_start_matches("- ").trim();
+        let value = line.strip_prefix("path:").unwrap_or(line).trim().trim_matches(['"', '\'']);
+        let path = PathBuf::from(value);
+        is_one_of(&path, &[MCAPS[0], DB3, COMPRESSED[0], COMPRESSED[1]]).then_some(path)
+    };
+    let named: BTreeSet<PathBuf> = metadata.lines().filter_map(name).collect();
+    // One that was decompressed has lost its second ending.
+    let is_there =
+        |path: &&PathBuf| folder.join(path).is_file() || folder.join(path.with_extension("")).is_file();
+    let missing: Vec<&PathBuf> = named.iter().filter(|path| !is_there(path)).collect();
+    let is_of_bag = |path: &&PathBuf| is_one_of(path, &[MCAPS[0], DB3, COMPRESSED[0], COMPRESSED[1]]);
+    if missing.is_empty() || files.iter().filter(is_of_bag).count() >= named.len() {
+        return None;
+    }
+    let names: Vec<String> = missing.iter().map(|path| path.display().to_string()).collect();
+    let message =
+        format!("{}: metadata.yaml names files that are not there: {}", folder.display(), names.join(", "));
+    Some(
+        Diagnostic::error(codes::log::MISSING_FILES, message)
+            .with_help("copy the whole folder again; what is judged is only a part of the recording"),
+    )
 }
 
 /// The files of a folder in the order of their numbers, without hidden ones: macOS puts a file `._bag_0.mcap` beside `bag_0.mcap`.

@@ -106,3 +106,29 @@ fn folders_without_a_file_that_is_read_are_refused() {
     assert_eq!(refused(&[message, ("a.mcap", b"")]), codes::log::COMPRESSED_MESSAGES);
     assert!(!is_log(folder(&[]).path()));
 }
+
+#[test]
+fn a_file_that_metadata_names_and_that_is_missing_is_said() {
+    let metadata = b"rosbag2_bagfile_information:
+  relative_file_paths:
+    - bag_0.mcap
+    - \"bag_1.mcap\"
+  files:
+    - path: bag_0.mcap
+    - path: bag_1.mcap
+";
+    let (first, second) = (log_at(1), log_at(2));
+    let warned = |files: &[(&str, &[u8])]| -> Vec<String> {
+        let folder = folder(&[&[("metadata.yaml", metadata.as_slice())], files].concat());
+        let survey = crate::survey_log(folder.path(), &LogOptions::default(), None).unwrap().survey;
+        survey.warnings.into_iter().map(|warning| warning.message).collect()
+    };
+    assert_eq!(warned(&[("bag_0.mcap", &first), ("bag_1.mcap", &second)]), [""; 0]);
+    // All were renamed.
+    assert_eq!(warned(&[("a_0.mcap", &first), ("a_1.mcap", &second)]), [""; 0]);
+    let said = warned(&[("bag_1.mcap", &second)]);
+    assert!(said.len() == 1 && said[0].contains("not there: bag_0.mcap"), "{said:?}");
+    // Nothing but the list is there.
+    let alone = folder(&[("metadata.yaml", metadata.as_slice())]);
+    assert_eq!(refusal(alone.path()).code, codes::log::MISSING_FILES);
+}

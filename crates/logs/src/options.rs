@@ -5,6 +5,8 @@
 pub struct LogOptions {
     /// Rate of the rows of a table without times, Hz.
     pub rate_hz: Option<f64>,
+    /// The index of the episode of a dataset that is read alone; all by default.
+    pub episode: Option<u64>,
     /// Names of the joints of the robot, by which columns of a table are recognised; empty without a robot.
     pub joints: Vec<String>,
 }

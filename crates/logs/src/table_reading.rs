@@ -20,6 +20,23 @@ pub struct TableReading {
     pub columns: Vec<TableColumn>,
     /// Names of the columns that are not.
     pub unused: Vec<String>,
+    /// The episodes of a Parquet with a column `episode_index`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub episodes: Option<TableEpisodes>,
+}
+
+/// The episodes of a dataset: the values of its column `episode_index`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct TableEpisodes {
+    /// How many there are.
+    pub count: u64,
+    /// The smallest index.
+    pub first: u64,
+    /// The largest.
+    pub last: u64,
+    /// The index of the one that is read alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub taken: Option<u64>,
 }
 
 /// How the text of a table is written.

@@ -17,6 +17,8 @@ pub struct CheckContext<'a> {
     pub is_recorded: bool,
     /// Joints that the source does not have: they stay at their start, and are not judged.
     pub held: &'a [String],
+    /// Those of them that are between base and tip and might have moved: nothing of the tip is known without them.
+    pub unknown: &'a [String],
     /// The poses that the source has of the robot.
     pub poses: &'a [ComparedPoses],
     /// The declared dynamics, with the payloads.

@@ -41,6 +41,6 @@ pub use recorder::{NoRecorder, Recorder, Recorders, RecordingError};
 pub use run_dynamics::RunDynamics;
 pub use running_check::{RunningCheck, write_out_limits};
 pub use same_input::SameInput;
-pub use sample::{Interruption, PoseChange, Sample};
+pub use sample::{Interruption, LeftOutInstants, PoseChange, Sample};
 pub use sample_store::{SampleStore, StoredSample};
 pub use space::JudgedPairs;

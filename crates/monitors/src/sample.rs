@@ -27,6 +27,15 @@ pub enum Interruption {
     NewPart,
 }
 
+/// Instants that a source could not give.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct LeftOutInstants {
+    /// A joint was not known at them.
+    pub incomplete: u64,
+    /// Their messages could not be used: unreadable, late, lost, or at a time that does not advance.
+    pub unusable: u64,
+}
+
 /// One instant: borrowed from the run loop, nothing is copied.
 #[derive(Debug)]
 pub struct Sample<'a> {
@@ -37,10 +46,10 @@ pub struct Sample<'a> {
     /// Time from the sample before. `None` for the first sample, and for the first after a gap: nothing is compared or
     /// differentiated across it.
     pub since_s: Option<f64>,
-    /// Instants since the sample before that the source has left out, since a joint was not known.
-    pub left_out: u64,
+    /// Instants since the sample before that the source has left out.
+    pub left_out: LeftOutInstants,
     /// Instants that the source has left out after this sample, if it is the last.
-    pub left_out_after: u64,
+    pub left_out_after: LeftOutInstants,
     /// What is between the sample before and this one; `None` for the first, and for one that follows.
     pub interruption: Option<Interruption>,
     /// When the last motion ends, as far as it is known by now.

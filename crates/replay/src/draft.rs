@@ -87,7 +87,7 @@ fn with_joints(
         survey.warnings.iter().filter(|warning| warning.code == congruent_logs::codes::log::MOTOR_UNITS.name);
     let mut taken: Vec<String> = of_unit.map(|warning| warning.message.clone()).collect();
     let mut source = SourceSettings::new(log.path.to_owned());
-    (source.clock, source.rate_hz) = (request.clock, request.rate_hz);
+    (source.clock, source.rate_hz, source.episode) = (request.clock, request.rate_hz, request.episode);
     source.joints = joints(request, &survey, &mut taken);
     let scenario = Scenario {
         name: log.name,
@@ -134,7 +134,7 @@ pub(crate) fn joints_draft(
     request: &ReplayRequest,
 ) -> Result<ReplayDraft, Findings> {
     let names = description.robot.movable_joint_names().map(str::to_owned).collect();
-    let options = LogOptions { rate_hz: request.rate_hz, joints: names };
+    let options = LogOptions { rate_hz: request.rate_hz, episode: request.episode, joints: names };
     let survey = survey_log(log, &options, Some(&description.robot))?.survey;
     let named = NamedLog { path: &log.display().to_string(), name: name_of(log) };
     Ok(with_joints(description, survey, named, request))

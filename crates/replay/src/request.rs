@@ -9,6 +9,8 @@ pub struct ReplayRequest {
     pub clock: Option<LogClock>,
     /// Rate of the rows of a table without times.
     pub rate_hz: Option<f64>,
+    /// The index of the episode of a dataset that is judged alone.
+    pub episode: Option<u64>,
     /// Whether the positions of joints that turn are degrees.
     pub degrees: bool,
     /// The topic of the measured joint states, if several have them.

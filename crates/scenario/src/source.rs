@@ -24,6 +24,10 @@ pub struct SourceSettings {
     /// Rate of the rows of a table without times.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub rate_hz: Option<f64>,
+    /// The index of the episode of a dataset of LeRobot, or of a Parquet with a column `episode_index`, that is read alone; default: all,
+    /// one after the other.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub episode: Option<u64>,
     /// The run begins with the first sample at this time; default: with the first of all.
     #[serde(default, deserialize_with = "optional_finite", skip_serializing_if = "Option::is_none")]
     pub from_s: Option<f64>,
@@ -34,6 +38,10 @@ pub struct SourceSettings {
     /// least 20 ms.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub maximum_gap_s: Option<f64>,
+    /// Joints between base and tip that the log does not have, and that were at their `[start]` all the time. Any other of which there is
+    /// no value fails the check `recording`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub held: Vec<String>,
     /// The topics with joint states; default: the topics with the joints of the robot, if no joint is on two of them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub joints: Vec<LoggedJointSettings>,
@@ -176,9 +184,11 @@ impl SourceSettings {
             log: log.into(),
             clock: None,
             rate_hz: None,
+            episode: None,
             from_s: None,
             until_s: None,
             maximum_gap_s: None,
+            held: Vec::new(),
             joints: Vec::new(),
             pose: Vec::new(),
         }

@@ -126,7 +126,34 @@ fn the_results_are_those_of_a_replay_of_the_same_lines() {
         report["checks"].clone()
     };
     assert_eq!(checks(watched_report), checks(replayed_report));
-    assert!(std::path::Path::new(&watched).join("watch/report.html").is_file());
+    let page = std::fs::read_to_string(std::path::Path::new(&watched).join("watch/report.html")).unwrap();
+    // There was no physics.
+    assert!(!page.contains("twin (physics)") && page.contains("Model and log where"));
+}
+
+#[test]
+fn what_cannot_be_used_of_a_stream_counts_against_it_as_in_a_replay() {
+    let whole = || times(0.0, 100, 200).map(|time_s| line(time_s, swing(time_s)));
+    let every_second = |instead: &dyn Fn(String) -> String| -> Vec<String> {
+        whole().enumerate().map(|(at, line)| if at % 2 == 1 { instead(line) } else { line }).collect()
+    };
+    let damaged = every_second(&|line| line[..30].to_owned());
+    let without_joints = every_second(&|line| line[..line.find("\"q\"").unwrap()].to_owned() + "\"q\": {}}");
+    let stopped: Vec<String> =
+        times(0.0, 100, 200).map(|time_s| line(time_s.min(0.99), swing(time_s))).collect();
+    let folder = ScratchFolder::new();
+    for (name, lines) in [("damaged", damaged), ("without_joints", without_joints), ("stopped", stopped)] {
+        let lines = lines.join("\n");
+        let log = folder.write(&format!("{name}.jsonl"), &lines);
+        let out = text(&folder.path().join(name));
+        let arguments = ["watch", "robots/ur5e", "--out", &out, "--format", "json"];
+        let watched = congruent_with_input(&arguments, &lines);
+        let replayed =
+            crate::support::command::congruent(&["replay", "robots/ur5e", &log, "--out", &out, "--force"]);
+        assert_eq!((watched.code, replayed.code), (1, 1), "{name}: {}{}", watched.stdout, replayed.stdout);
+        assert!(replayed.stdout.contains("used share 0.5 at the log"), "{name}: {}", replayed.stdout);
+        assert!(watched.stdout.contains("100 of 200 messages not used"), "{name}: {}", watched.stdout);
+    }
 }
 
 #[test]
@@ -156,4 +183,63 @@ fn a_signal_ends_the_run_in_order_while_the_stream_is_open() {
         "{finished}"
     );
     assert_eq!(live.code(), 0);
+}
+
+#[test]
+fn a_joint_of_the_chain_that_never_comes_is_no_pass() {
+    // The log of an arm with fewer joints: what the last two did nobody knows.
+    let shorter = |lines: String| lines.replace("wrist_2_joint", "a").replace("wrist_3_joint", "b");
+    let lines: String = times(0.0, 100, 200).map(|time_s| line(time_s, swing(time_s)) + "\n").collect();
+    let lines = shorter(lines);
+    let folder = ScratchFolder::new();
+    let log = folder.write("short.jsonl", &lines);
+    let out = text(&folder.path().join("out"));
+    let watched = congruent_with_input(&["watch", "robots/ur5e"], &lines);
+    let run = |arguments: &[&str]| {
+        crate::support::command::congruent(&[arguments, &["--out", &out, "--no-recording"]].concat())
+    };
+    let replayed = run(&["replay", "robots/ur5e", &log]);
+    for answer in [&watched, &replayed] {
+        assert_eq!(answer.code, 1, "{}{}", answer.stdout, answer.stderr);
+        assert!(answer.stdout.contains("never in the log"), "{}", answer.stdout);
+    }
+    // Who knows that they stood still says so.
+    let scenario = folder.path().join("out/short.toml");
+    let written = std::fs::read_to_string(&scenario).unwrap();
+    let held = |names: &str| {
+        std::fs::write(&scenario, written.replace("[source]\n", &format!("[source]\nheld = {names}\n")))
+            .unwrap();
+        run(&["run", scenario.to_str().unwrap()])
+    };
+    let known = held("[\"wrist_2_joint\", \"wrist_3_joint\"]");
+    assert_eq!(known.code, 0, "{}{}", known.stdout, known.stderr);
+    let wrong = held("[\"elbow_joint\"]");
+    assert_eq!(wrong.code, 2, "{}", wrong.stdout);
+    assert!(wrong.stderr.contains("it lacks wrist_2_joint, wrist_3_joint"), "{}", wrong.stderr);
+}
+
+#[test]
+fn late_lines_of_a_stream_are_lost_and_a_replay_puts_them_in_order() {
+    // Each third line is of a time between the two before it.
+    let late = |at: usize, time_s: f64| if at % 3 == 2 { time_s - 0.015 } else { time_s };
+    let lines: String = times(0.0, 100, 201)
+        .enumerate()
+        .map(|(at, time_s)| line(late(at, time_s), swing(late(at, time_s))) + "\n")
+        .collect();
+    let watched = congruent_with_input(&["watch", "robots/ur5e"], &lines);
+    assert_eq!(watched.code, 1, "{}", watched.stdout);
+    assert!(watched.stdout.contains("67 of 201 messages not used"), "{}", watched.stdout);
+    assert!(watched.stdout.contains("134 samples judged, 67 late"), "{}", watched.stdout);
+    let folder = ScratchFolder::new();
+    let log = folder.write("late.jsonl", &lines);
+    let out = text(&folder.path().join("out"));
+    let replayed = crate::support::command::congruent(&["replay", "robots/ur5e", &log, "--out", &out]);
+    assert_eq!(replayed.code, 0, "{}", replayed.stdout);
+}
+
+#[test]
+fn times_in_milliseconds_are_said() {
+    let lines: String = times(0.0, 100, 100).map(|time_s| line(1e3 * time_s, swing(time_s)) + "\n").collect();
+    let answer = congruent_with_input(&["watch", "robots/ur5e"], &lines);
+    assert!(answer.stderr.contains("10 s apart: as ms they would be those of 100 Hz"), "{}", answer.stderr);
 }

@@ -141,6 +141,30 @@ fn a_lost_connection_is_opened_again_and_its_time_is_a_gap() {
 }
 
 #[test]
+#[cfg(unix)]
+fn a_robot_that_does_not_come_back_has_lost_what_was_to_come() {
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    let address = listener.local_addr().unwrap().to_string();
+    let robot = thread::spawn(move || Controller::accept(&listener, TYPES).stream(0..300));
+    let mut live =
+        Live::begin(&["watch", "robots/ur5e", "--rtde", &address, "--rate-hz", "500", "--format", "json"]);
+    robot.join().unwrap();
+    while live.next()["kind"] != "lost" {}
+    thread::sleep(Duration::from_millis(500));
+    live.signal("INT");
+    let mut finished = live.next();
+    while finished["kind"] != "finished" {
+        finished = live.next();
+    }
+    let checks = finished["report"]["checks"].as_array().unwrap();
+    let recording = checks.iter().find(|check| check["check"] == "recording").unwrap();
+    assert_eq!(recording["status"], "fail", "{recording}");
+    // 300 of 550 and more.
+    assert!(recording["measures"][0]["worst"]["value"].as_f64().unwrap() < 0.55, "{recording}");
+    assert_eq!(live.code(), 1);
+}
+
+#[test]
 fn an_output_that_the_controller_does_not_know_is_named() {
     let listener = TcpListener::bind("127.0.0.1:0").unwrap();
     let address = listener.local_addr().unwrap().to_string();

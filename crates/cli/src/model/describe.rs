@@ -40,6 +40,9 @@ pub(crate) struct Arguments {
     /// Rate of the rows of tables whose times are missing or too coarse, Hz.
     #[arg(long, value_name = "HZ", value_parser = crate::quantity::rate_hz)]
     rate_hz: Option<f64>,
+    /// The episode of a dataset of LeRobot that is read alone, by its index; by default all, one after the other.
+    #[arg(long, value_name = "INDEX")]
+    episode: Option<u64>,
     /// Print the moving joints in the orders in which programs list them instead: the order of the file, depth first (MuJoCo) and
     /// breadth first (Isaac Sim, Isaac Lab), and where these differ.
     #[arg(long)]
@@ -128,7 +131,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
 
 /// An option that would be ignored.
 fn unfit_option(arguments: &Arguments) -> Option<Diagnostic> {
-    let Arguments { inputs, robot, rate_hz, orders, .. } = arguments;
+    let Arguments { inputs, robot, rate_hz, episode, orders, .. } = arguments;
     let any = |is_one: fn(&Path) -> bool| inputs.iter().find(|path| is_one(path));
     let (log, table) = (any(is_log), any(is_table));
     let refused = |message: String, help: &str| {
@@ -143,6 +146,10 @@ fn unfit_option(arguments: &Arguments) -> Option<Diagnostic> {
             let message = "--robot is what logs are compared with, and no input is a log".to_owned();
             refused(message, "give a log beside --robot, or the robot without the option")
         }
+        None if episode.is_some() => {
+            let message = "--episode is of a dataset, and no input is a log".to_owned();
+            refused(message, "leave --episode out")
+        }
         _ if rate_hz.is_some() && table.is_none() => {
             let message = "--rate-hz is the rate of the rows of tables, and no input is a table".to_owned();
             refused(message, "leave --rate-hz out: an MCAP has the times of its messages")
@@ -156,6 +163,6 @@ fn surveyed(
     arguments: &Arguments,
     robot: Option<&RobotDescription>,
 ) -> Result<SurveyedLog, Failure> {
-    let options = LogOptions { rate_hz: arguments.rate_hz, ..LogOptions::default() };
+    let options = LogOptions { rate_hz: arguments.rate_hz, episode: arguments.episode, joints: Vec::new() };
     Ok(survey_log(path, &options, robot.map(|description| &description.robot))?)
 }

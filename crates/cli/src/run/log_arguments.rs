@@ -17,6 +17,9 @@ pub(crate) struct LogArguments {
     /// Rate of the rows of a table without times, Hz.
     #[arg(long, value_name = "HZ", value_parser = crate::quantity::rate_hz)]
     rate_hz: Option<f64>,
+    /// The episode of a dataset of LeRobot that is read alone, by its index; by default all, one after the other.
+    #[arg(long, value_name = "INDEX")]
+    episode: Option<u64>,
 }
 
 /// The clock of the messages.
@@ -37,6 +40,7 @@ impl LogArguments {
                 StampChoice::Log => LogClock::Log,
             }),
             rate_hz: self.rate_hz,
+            episode: self.episode,
             degrees: self.degrees,
             joints: self.joints.clone(),
             ..ReplayRequest::default()

@@ -57,7 +57,16 @@ pub(crate) fn open(path: &Path) -> Result<OpenTable, Diagnostic> {
         width: head.width,
         rows_before,
     };
-    Ok(OpenTable { source, head, rows: Box::new(rows), format: LogFormat::Table, text: Some(text) })
+    Ok(OpenTable {
+        source,
+        head,
+        rows: Box::new(rows),
+        format: LogFormat::Table,
+        text: Some(text),
+        not_read: Vec::new(),
+        warnings: Vec::new(),
+        episodes: None,
+    })
 }
 
 impl RowSource for TextRows {

@@ -47,6 +47,7 @@ impl JsonLinesReader {
             }
             Some(Err(bad)) => {
                 self.bad += 1;
+                self.events.push_back(LogEvent::Unusable(1));
                 self.first_bad.get_or_insert(bad);
             }
             None => {
@@ -106,8 +107,14 @@ not a line
         while let Some(event) = reader.next_event().unwrap() {
             events.push(event);
         }
-        let [LogEvent::Joints(first), LogEvent::Joints(second), LogEvent::Pose(pose), LogEvent::Gap(gap)] =
-            &events[..]
+        let [
+            LogEvent::Joints(first),
+            LogEvent::Unusable(1),
+            LogEvent::Joints(second),
+            LogEvent::Pose(pose),
+            LogEvent::Unusable(1),
+            LogEvent::Gap(gap),
+        ] = &events[..]
         else {
             panic!("{events:?}")
         };

@@ -31,8 +31,14 @@ pub fn survey_head(
 ) -> Result<SurveyedLog, Diagnostic> {
     let mut events = Vec::new();
     let (mut messages, mut first_s) = (0, f64::NAN);
+    let mut unusable = 0;
     while events.len() < MOST {
         let Some(event) = reader.next_event()? else { break };
+        if let LogEvent::Unusable(messages) = event {
+            // As a number: there may be any count of lines that are no messages before the first one.
+            unusable += messages;
+            continue;
+        }
         let mut is_enough = false;
         if let LogEvent::Joints(joints) = &event {
             messages += 1;
@@ -49,6 +55,9 @@ pub fn survey_head(
         }
     }
     let surveyed = survey_events(name, &*reader, &events, robot);
+    if unusable > 0 {
+        events.insert(0, LogEvent::Unusable(unusable));
+    }
     reader.give_again(events);
     surveyed
 }

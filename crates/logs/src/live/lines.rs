@@ -75,9 +75,14 @@ mod tests {
         let on_notice = Box::new(move |notice| reported.borrow_mut().push(notice));
         let mut reader = listen_to_lines(text.as_bytes(), Arc::default(), on_notice);
         let mut next = || reader.next_event().unwrap();
-        let (Some(LogEvent::Joints(first)), Some(LogEvent::Joints(second)), None) = (next(), next(), next())
+        let (
+            Some(LogEvent::Joints(first)),
+            Some(LogEvent::Unusable(1)),
+            Some(LogEvent::Joints(second)),
+            None,
+        ) = (next(), next(), next(), next())
         else {
-            panic!("not two messages")
+            panic!("not two messages with a bad line between")
         };
         // The arrival of the first sets the clock; the second comes at once.
         assert_eq!((first.time.log_s, first.time.stamp_s, second.time.stamp_s), (0.0, Some(0.0), Some(0.5)));

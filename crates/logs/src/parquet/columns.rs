@@ -3,7 +3,7 @@
 use std::{fs::File, sync::Arc};
 
 use parquet::{
-    basic::{Compression, Type as PhysicalType},
+    basic::{Compression, LogicalType, Type as PhysicalType},
     file::{
         metadata::{ColumnChunkMetaData, ParquetMetaData, RowGroupMetaData},
         reader::SerializedFileReader,
@@ -23,6 +23,8 @@ pub(super) struct NumberColumns {
     pub(super) names: Vec<String>,
     /// Whether they are those of a dataset of LeRobot.
     pub(super) are_of_lerobot: bool,
+    /// The others, with their types: nothing is read of them.
+    pub(super) others: Vec<String>,
     schema: Type,
 }
 
@@ -39,9 +41,16 @@ impl NumberColumns {
             if are_of_lerobot { [STATE, TIMESTAMP].contains(&field.name()) } else { is_number(field) }
         };
         let fields: Vec<TypePtr> = schema.get_fields().iter().filter(is_read).map(Arc::clone).collect();
+        let is_other = |field: &&TypePtr| !is_read(field);
+        let others = schema.get_fields().iter().filter(is_other).map(with_type).collect();
         let names = fields.iter().map(|field| field.name().to_owned()).collect();
         let builder = Type::group_type_builder(schema.name()).with_fields(fields);
-        Ok(Self { names, are_of_lerobot, schema: builder.build().map_err(|fault| fault.to_string())? })
+        Ok(Self {
+            names,
+            are_of_lerobot,
+            others,
+            schema: builder.build().map_err(|fault| fault.to_string())?,
+        })
     }
 
     /// The rows of a file, as far as these columns go.
@@ -64,6 +73,25 @@ impl NumberColumns {
 fn is_number(field: &TypePtr) -> bool {
     let numbers = [PhysicalType::INT32, PhysicalType::INT64, PhysicalType::FLOAT, PhysicalType::DOUBLE];
     field.is_primitive() && numbers.contains(&field.get_physical_type())
+}
+
+/// The name of a column with its type, as `robot_type (text)`; a number needs no word.
+fn with_type(field: &TypePtr) -> String {
+    let name = field.name();
+    if is_number(field) {
+        return name.to_owned();
+    }
+    let is_list = field.is_group() && field.get_basic_info().logical_type_ref() == Some(&LogicalType::List);
+    let what = match (field.is_group(), is_list) {
+        (true, true) => "list",
+        (true, false) => "struct",
+        (false, _) => match field.get_physical_type() {
+            PhysicalType::BOOLEAN => "yes or no",
+            PhysicalType::INT96 => "time in INT96",
+            _ => "text or bytes",
+        },
+    };
+    format!("{name} ({what})")
 }
 
 /// The cells of a row: a list has one for each of its values.

@@ -6,7 +6,7 @@ use congruent_input::{Diagnostic, read_text, unreadable};
 use serde_json::Value;
 
 /// What describes a dataset, from its folder on.
-const INFO: &str = "meta/info.json";
+pub(super) const INFO: &str = "meta/info.json";
 /// Most bytes of it. Kind: choice; it has some kB.
 const INFO_BYTES: u64 = 16 << 20;
 /// How many folders a file with rows is below that of its dataset: `data/chunk-000/file-000.parquet`.
@@ -35,15 +35,31 @@ fn sorted(folder: &Path) -> Result<Vec<PathBuf>, Diagnostic> {
     Ok(paths)
 }
 
-/// The names of the values of a list in a dataset to which a file belongs; empty if nothing says them.
-pub(super) fn names_of(file: &Path, list: &str) -> Result<Vec<String>, Diagnostic> {
+/// The names of the values of a list.
+#[derive(Debug, Default)]
+pub(super) struct ListNames {
+    /// Empty if nothing says them.
+    pub(super) names: Vec<String>,
+    /// Why nothing says them, of what should: a verb with what follows.
+    pub(super) fault: Option<String>,
+}
+
+/// The names of the values of a list in a dataset to which a file belongs.
+pub(super) fn names_of(file: &Path, list: &str) -> Result<ListNames, Diagnostic> {
     let above = file.ancestors().skip(1).take(DEPTH).map(|folder| folder.join(INFO));
-    let Some(info) = above.into_iter().find(|path| path.is_file()) else { return Ok(Vec::new()) };
+    let Some(info) = above.into_iter().find(|path| path.is_file()) else { return Ok(ListNames::default()) };
     let text = read_text(&info, INFO_BYTES)?.text.clone();
-    let info: Value = serde_json::from_str(&text).unwrap_or_default();
+    let info: Value = match serde_json::from_str(&text) {
+        Ok(info) => info,
+        Err(fault) => {
+            let fault = Some(format!("is no JSON ({fault})"));
+            return Ok(ListNames { names: Vec::new(), fault });
+        }
+    };
     let mut names = Vec::new();
     collect(&info["features"][list]["names"], &mut names);
-    Ok(names)
+    let fault = names.is_empty().then(|| format!("has no names of the values of {list}"));
+    Ok(ListNames { names, fault })
 }
 
 /// Names are a list, or a list under a key such as `motors`.

@@ -2,9 +2,11 @@
 
 mod columns;
 mod dataset;
+mod episodes;
 mod rows;
 #[cfg(test)]
 mod write;
 
 pub(crate) use dataset::is_dataset;
+pub(crate) use episodes::refused as episode_refused;
 pub(crate) use rows::open;

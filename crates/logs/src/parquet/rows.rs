@@ -3,6 +3,7 @@
 use std::{
     collections::VecDeque,
     fs::File,
+    ops::Range,
     path::{Path, PathBuf},
     sync::Arc,
     vec,
@@ -16,7 +17,8 @@ use parquet::{
 
 use super::{
     columns::{NumberColumns, STATE, TIMESTAMP, cells, list_length},
-    dataset::{files_of, is_dataset, names_of},
+    dataset::{INFO, ListNames, files_of, is_dataset, names_of},
+    episodes::{self, ChosenFile},
 };
 use crate::{
     codes,
@@ -31,6 +33,10 @@ const HEAD_ROWS: usize = 200;
 /// A file of which the rows are read one after the other.
 struct OpenFile {
     path: PathBuf,
+    /// Which of its rows are wanted: those of an episode.
+    wanted: Option<Vec<Range<u64>>>,
+    /// Rows so far.
+    number: u64,
     columns: NumberColumns,
     rows: RowIter<'static>,
 }
@@ -39,20 +45,21 @@ struct NumberRows {
     /// The rows of the beginning, which come again.
     head: VecDeque<Vec<String>>,
     file: Option<OpenFile>,
-    files: vec::IntoIter<PathBuf>,
+    files: vec::IntoIter<ChosenFile>,
     /// Names of the columns of the first file, which all have.
     names: Vec<String>,
     number: u64,
     gaps: Vec<Diagnostic>,
 }
 
-/// Opens a file, or the folder of a dataset of LeRobot.
+/// Opens a file, or the folder of a dataset of LeRobot; of one episode alone if its index is given.
 ///
 /// # Errors
-/// It has no file, or the first one cannot be read.
-pub(crate) fn open(path: &Path) -> Result<OpenTable, Diagnostic> {
+/// It has no file or no such episode, or the first file cannot be read.
+pub(crate) fn open(path: &Path, episode: Option<u64>) -> Result<OpenTable, Diagnostic> {
     let paths = if is_dataset(path) { files_of(path)? } else { vec![path.to_owned()] };
-    let mut files = paths.into_iter();
+    let (chosen, episodes) = episodes::choose(path, paths, episode)?;
+    let mut files = chosen.into_iter();
     let Some(first) = files.next() else {
         let message = format!("{} has no file data/*/*.parquet", path.display());
         return Err(Diagnostic::error(codes::log::PARQUET, message)
@@ -69,7 +76,8 @@ pub(crate) fn open(path: &Path) -> Result<OpenTable, Diagnostic> {
         return Err(refused(&file.path, "it has no row"));
     };
     let NumberColumns { names, are_of_lerobot, .. } = &file.columns;
-    let column_names = if *are_of_lerobot { names_of_state(&file.path, names, row)? } else { names.clone() };
+    let state = if *are_of_lerobot { names_of_state(&file.path, names, row)? } else { StateNames::default() };
+    let column_names = if *are_of_lerobot { state.columns } else { names.clone() };
     let rows: Vec<Vec<String>> = head.iter().map(cells).collect();
     let source = SourceFile { path: path.to_owned(), text: String::new(), is_foreign: false };
     Ok(OpenTable {
@@ -82,6 +90,9 @@ pub(crate) fn open(path: &Path) -> Result<OpenTable, Diagnostic> {
         },
         format: if *are_of_lerobot { LogFormat::LeRobot } else { LogFormat::Parquet },
         text: None,
+        episodes,
+        not_read: file.columns.others.clone(),
+        warnings: state.fault.into_iter().collect(),
         rows: Box::new(NumberRows {
             head: rows.into(),
             names: names.clone(),
@@ -93,11 +104,22 @@ pub(crate) fn open(path: &Path) -> Result<OpenTable, Diagnostic> {
     })
 }
 
+/// The columns of a dataset.
+#[derive(Default)]
+struct StateNames {
+    columns: Vec<String>,
+    /// Why the joints have no names.
+    fault: Option<Diagnostic>,
+}
+
 /// The names of the columns of a dataset, in the order of the file: the state has one for each of its values, each a position if its
 /// name does not say another quantity.
-fn names_of_state(path: &Path, columns: &[String], row: &Row) -> Result<Vec<String>, Diagnostic> {
+fn names_of_state(path: &Path, columns: &[String], row: &Row) -> Result<StateNames, Diagnostic> {
     let length = list_length(row).unwrap_or_default();
-    let written = names_of(path, STATE)?;
+    let ListNames { names: written, mut fault } = names_of(path, STATE)?;
+    if fault.is_none() && !written.is_empty() && written.len() != length {
+        fault = Some(format!("names {} values of {STATE}, which has {length}", written.len()));
+    }
     let name = |at: usize| match written.get(at).filter(|_| written.len() == length) {
         Some(name) if says_quantity(name) => name.clone(),
         Some(name) => format!("{name} position"),
@@ -109,15 +131,22 @@ fn names_of_state(path: &Path, columns: &[String], row: &Row) -> Result<Vec<Stri
         TIMESTAMP => vec![format!("{TIMESTAMP}_s")],
         other => vec![other.to_owned()],
     };
-    Ok(columns.iter().flat_map(of_column).collect())
+    let unnamed = |fault: String| {
+        let last = format!("joint_{length}");
+        let message = format!("{}: {INFO} {fault}: the joints are called joint_1 to {last}", path.display());
+        Diagnostic::warning(codes::log::STATE_NAMES, message).with_help(format!(
+            "write their names into {INFO}, under features, {STATE}, names, in the order of the values"
+        ))
+    };
+    Ok(StateNames { columns: columns.iter().flat_map(of_column).collect(), fault: fault.map(unnamed) })
 }
 
 impl OpenFile {
-    fn new(path: PathBuf) -> Result<Self, Diagnostic> {
+    fn new(ChosenFile { path, rows: wanted }: ChosenFile) -> Result<Self, Diagnostic> {
         let file = open_regular(&path, u64::MAX)?;
         let opened = catch_panic(|| Self::parts(file));
         let (columns, rows) = opened.map_err(|fault| refused(&path, &fault))?;
-        Ok(Self { path, columns, rows })
+        Ok(Self { path, wanted, number: 0, columns, rows })
     }
 
     fn parts(file: File) -> Result<(NumberColumns, RowIter<'static>), String> {
@@ -133,8 +162,28 @@ impl OpenFile {
         Ok((columns, rows))
     }
 
+    /// The next row that is wanted.
     fn next(&mut self) -> Result<Option<Row>, String> {
-        catch_panic(|| self.rows.next().transpose().map_err(|fault| fault.to_string()))
+        loop {
+            let number = self.number;
+            self.number += 1;
+            if self.is_behind(number) {
+                return Ok(None);
+            }
+            let row = catch_panic(|| self.rows.next().transpose().map_err(|fault| fault.to_string()))?;
+            if row.is_none() || self.is_wanted(number) {
+                return Ok(row);
+            }
+        }
+    }
+
+    fn is_wanted(&self, row: u64) -> bool {
+        self.wanted.as_ref().is_none_or(|wanted| wanted.iter().any(|range| range.contains(&row)))
+    }
+
+    /// Whether no later row is wanted.
+    fn is_behind(&self, row: u64) -> bool {
+        self.wanted.as_ref().is_some_and(|wanted| wanted.last().is_none_or(|last| last.end <= row))
     }
 }
 
@@ -164,8 +213,8 @@ impl NumberRows {
 
     /// Opens the next file, unless it is of another kind than the first or cannot be read; `None` behind the last.
     fn open_next(&mut self) -> Option<()> {
-        let path = self.files.next()?;
-        match OpenFile::new(path) {
+        let file = self.files.next()?;
+        match OpenFile::new(file) {
             Ok(file) if file.columns.names == self.names => self.file = Some(file),
             Ok(file) => self.gaps.push(refused(&file.path, "its columns are not those of the files before")),
             Err(fault) => self.gaps.push(fault),

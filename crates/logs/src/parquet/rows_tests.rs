@@ -12,6 +12,7 @@ use crate::{
     is_log,
     mutation_tests::{Numbers, mutated},
     open_log, survey_log,
+    table_reading::TableEpisodes,
 };
 
 use super::*;
@@ -120,6 +121,61 @@ fn names_and_episodes_of_a_dataset() {
     // A file by itself knows its dataset.
     let file = folder.path().join("data/chunk-000/file-001.parquet");
     assert_eq!(joints(&read(&file))[0].names, found[0].names);
+}
+
+#[test]
+fn what_is_not_read_of_a_dataset_is_said() {
+    let with_info = |info: &str| {
+        let folder = dataset(&[("file-000.parquet", episode(0, 1.0))]);
+        fs::write(folder.path().join("meta/info.json"), info).unwrap();
+        surveyed(folder.path())
+    };
+    let whole = with_info(INFO);
+    assert_eq!(whole.table.unwrap().unused, ["observation.image (text or bytes)", "episode_index"]);
+    let short = INFO.replace("\"shoulder_pan.pos\", ", "");
+    for (info, part) in [
+        ("{", "is no JSON"),
+        ("{}", "has no names of the values of observation.state"),
+        (short.as_str(), "names 1 values of observation.state, which has 2"),
+    ] {
+        let survey = with_info(info);
+        assert_eq!(
+            (codes_of(&survey).last(), survey.unreadable_parts),
+            (Some(&"log::motor_units"), 0),
+            "{info}"
+        );
+        let said = survey.warnings.iter().find(|warning| warning.code == "log::state_names").unwrap();
+        assert!(said.message.contains(part) && said.message.contains("joint_1 to joint_2"), "{said:?}");
+    }
+}
+
+#[test]
+fn one_episode_is_read_alone_wherever_it_is() {
+    let both = [episode(3, 0.3), episode(4, 0.4)].concat();
+    let folder = dataset(&[("file-000.parquet", episode(2, 0.2)), ("file-001.parquet", both)]);
+    let options = |episode| LogOptions { episode: Some(episode), ..LogOptions::default() };
+    for (index, most) in [(2, 0.2), (3, 0.3), (4, 0.4)] {
+        let survey = survey_log(folder.path(), &options(index), None).unwrap().survey;
+        let found = survey.table.unwrap().episodes.unwrap();
+        let expected = TableEpisodes { count: 3, first: 2, last: 4, taken: Some(index) };
+        assert_eq!((found, survey.messages), (expected, 60));
+        let mut reader = open_log(folder.path(), &options(index)).unwrap();
+        let events: Vec<LogEvent> = std::iter::from_fn(|| reader.next_event().unwrap()).collect();
+        assert!((joints(&events)[59].position[0] - most).abs() < 1e-6);
+    }
+    let refused = open_log(folder.path(), &options(5)).err().unwrap();
+    assert_eq!(refused.code, codes::log::EPISODE);
+    assert!(refused.message.ends_with("has no episode 5; its episodes are 2 to 4"), "{}", refused.message);
+    let words = crate::survey_words(&surveyed(folder.path()), 5);
+    assert!(words.head[0].contains("3 episodes (indices 2 to 4), 180 rows"), "{:?}", words.head);
+    // A log without episodes does not ignore the option.
+    let table = folder.path().join("log.parquet");
+    table_file(&table, &[("t", vec![0.0, 1.0]), ("q1", vec![0.0, 1.0])], Compression::SNAPPY);
+    let csv = folder.path().join("log.csv");
+    fs::write(&csv, "time_s,q1\n0,0\n0.1,1\n").unwrap();
+    for path in [table, csv] {
+        assert_eq!(open_log(&path, &options(0)).err().unwrap().code, codes::log::EPISODE);
+    }
 }
 
 #[test]

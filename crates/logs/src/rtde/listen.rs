@@ -31,11 +31,13 @@ pub fn listen_to_rtde(
     on_notice: OnNotice,
 ) -> Result<LiveReader, Diagnostic> {
     let connection = Connection::open(&options)?;
-    Ok(LiveReader::start(LogFormat::Rtde, stop, on_notice, move |queue| {
+    let rate_hz = options.rate_hz;
+    let reader = LiveReader::start(LogFormat::Rtde, stop, on_notice, move |queue| {
         let mut listener = Listener { names: options.joints.to_vec().into(), options, queue, first_ns: None };
         // Nobody listens any more: the run has ended.
         let _: Result<(), Closed> = listener.listen(connection);
-    }))
+    });
+    Ok(reader.sent_at(rate_hz))
 }
 
 struct Listener {

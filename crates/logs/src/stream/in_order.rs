@@ -10,6 +10,10 @@ const WINDOW: usize = 64;
 /// Time within which they are, s: the messages of a slow topic are not held back for long. Kind: choice, likewise.
 pub(super) const SPAN_S: f64 = 0.25;
 
+/// Messages at one time behind the first that are taken for those of a coarse clock. Kind: choice; a clock that counts 10 ms
+/// repeats each time nine times at 1 kHz. A clock that repeats more does not advance, and nobody knows when its messages were true.
+const MOST_REPEATED: u64 = 10;
+
 /// A message at a time.
 #[derive(Debug)]
 struct Timed<P, T> {
@@ -57,6 +61,11 @@ pub(super) struct InOrder<P, T> {
     /// Messages with a part that another message at their time has, and messages that came after a later one was given.
     pub(super) repeated: u64,
     pub(super) late: u64,
+    /// Messages among these that nobody can judge, since they were taken last: those that were late, and those at a
+    /// time that does not advance.
+    pub(super) lost: u64,
+    /// Messages that repeat the time that was given last.
+    repeated_now: u64,
 }
 
 impl<P: PartialEq, T> Default for InOrder<P, T> {
@@ -71,6 +80,8 @@ impl<P: PartialEq, T> Default for InOrder<P, T> {
             window: WINDOW,
             repeated: 0,
             late: 0,
+            lost: 0,
+            repeated_now: 0,
         }
     }
 }
@@ -112,16 +123,25 @@ impl<P: PartialEq, T> InOrder<P, T> {
         match time_s.total_cmp(&self.given_s) {
             Ordering::Less => {
                 self.late += 1;
+                self.lost += 1;
                 return;
             }
             Ordering::Equal if self.given.contains(&part) => {
                 self.repeated += 1;
+                self.repeated_now += 1;
+                self.lost += match self.repeated_now.checked_sub(MOST_REPEATED) {
+                    None | Some(0) => 0,
+                    // The clock has not advanced for any of them.
+                    Some(1) => self.repeated_now,
+                    Some(_) => 1,
+                };
                 return;
             }
             Ordering::Equal => {}
             Ordering::Greater => {
                 self.given_s = time_s;
                 self.given.clear();
+                self.repeated_now = 0;
             }
         }
         self.given.push(part);
@@ -162,7 +182,22 @@ mod tests {
             order.pop().is_some()
         };
         assert!(given(1.0) && given(1.001) && !given(1.0) && given(1.002));
-        assert_eq!(order.late, 1);
+        assert_eq!((order.late, order.lost), (1, 1));
+    }
+
+    #[test]
+    fn a_coarse_clock_loses_nothing_and_one_that_stopped_all_of_its_messages() {
+        let lost = |repeated: u64| {
+            let mut order = InOrder::at_once();
+            (0..=repeated).for_each(|at| order.push(1.0, (), at));
+            order.push(2.0, (), 0);
+            assert_eq!(order.repeated, repeated);
+            order.lost
+        };
+        assert_eq!(
+            [0, 9, MOST_REPEATED, MOST_REPEATED + 1, 500].map(lost),
+            [0, 0, 0, MOST_REPEATED + 1, 500]
+        );
     }
 
     #[test]

@@ -21,6 +21,8 @@ pub struct JointRow {
     pub setpoint_qd: Vec<f64>,
     /// Instants since the row before that were left out, since a joint was not known.
     pub left_out: u64,
+    /// Messages since the row before that could not be used: unreadable, late, lost, or at a time that does not advance.
+    pub unusable: u64,
 }
 
 impl JointRow {
@@ -36,6 +38,7 @@ impl JointRow {
             setpoint_q: unknown(),
             setpoint_qd: unknown(),
             left_out: 0,
+            unusable: 0,
         }
     }
 }

@@ -165,6 +165,7 @@ impl LogStream {
                     self.poses.iter_mut().enumerate().filter(|(_, stream)| stream.is_of(name, &pose));
                 self.ready.extend(streams.filter_map(|(at, stream)| stream.take(at, time_s, &pose)));
             }
+            LogEvent::Unusable(messages) => self.rows.lose(messages),
             LogEvent::Gap(_) => self.rows.counts.unreadable_parts += 1,
             LogEvent::StaticEdge(_) | LogEvent::Description(_) | LogEvent::Other(_) => {}
         }
@@ -215,8 +216,9 @@ impl LogStream {
         (clock.part >= part).then_some(time_s + self.shift_s)
     }
 
-    /// Instants that were left out since the last row: behind the last one, those that nobody has seen.
-    pub fn left_out_since_row(&self) -> u64 {
+    /// Instants that were left out since the last row, and messages that could not be used: behind the last one, those that
+    /// nobody has seen.
+    pub fn left_out_since_row(&self) -> [u64; 2] {
         self.rows.left_out()
     }
 

@@ -54,6 +54,8 @@ pub(super) struct RowMaker {
     row: JointRow,
     /// Instants that were left out since the last row.
     left_out: u64,
+    /// Messages that could not be used since the last row.
+    unusable: u64,
     pub(super) counts: JointRowCounts,
 }
 
@@ -86,6 +88,7 @@ impl RowMaker {
             has_ended: false,
             row: JointRow::new(joints),
             left_out: 0,
+            unusable: 0,
             counts: JointRowCounts::default(),
         }
     }
@@ -99,10 +102,26 @@ impl RowMaker {
     pub(super) fn take(&mut self, selection: usize, time_s: f64, message: LoggedJoints) {
         if message.has_wrong_length() {
             self.counts.wrong_lengths += 1;
+            self.lose_of(selection, 1);
+            return;
+        }
+        if message.names.is_empty() {
+            self.counts.without_positions += 1;
+            self.lose_of(selection, 1);
             return;
         }
         self.topics[selection].messages.push(time_s, Arc::clone(&message.names), message);
         self.sort(selection);
+    }
+
+    /// Counts messages that cannot be used.
+    pub(super) fn lose(&mut self, messages: u64) {
+        self.unusable += messages;
+    }
+
+    /// Likewise of a selection: rows have the times of the first one, and the joints of the others are known between messages.
+    fn lose_of(&mut self, selection: usize, messages: u64) {
+        self.unusable += if selection == 0 { messages } else { 0 };
     }
 
     /// No message follows.
@@ -116,6 +135,8 @@ impl RowMaker {
 
     /// From messages that are in order to the series of their joints.
     fn sort(&mut self, selection: usize) {
+        let lost = std::mem::take(&mut self.topics[selection].messages.lost);
+        self.lose_of(selection, lost);
         while let Some((time_s, message)) = self.topics[selection].messages.pop() {
             let topic = &mut self.topics[selection];
             topic.find_places(&message.names);
@@ -139,9 +160,9 @@ impl RowMaker {
         }
     }
 
-    /// Instants that were left out since the last row.
-    pub(super) fn left_out(&self) -> u64 {
-        self.left_out
+    /// Instants that were left out since the last row, and messages that could not be used.
+    pub(super) fn left_out(&self) -> [u64; 2] {
+        [self.left_out, self.unusable]
     }
 
     /// Makes the next row, if all joints are known by now or cannot be any more; returns whether there is one.
@@ -155,6 +176,7 @@ impl RowMaker {
             if self.fill(time_s) {
                 self.row.message = message;
                 self.row.left_out = std::mem::take(&mut self.left_out);
+                self.row.unusable = std::mem::take(&mut self.unusable);
                 self.counts.rows += 1;
                 return true;
             }

@@ -117,3 +117,24 @@ fn rows_do_not_wait_for_a_topic_that_is_silent() {
     assert_eq!(given, 1);
     assert!(rows.counts().incomplete > 700, "{:?}", rows.counts());
 }
+
+#[test]
+fn messages_that_cannot_be_used_are_counted_beside_the_rows() {
+    let mut rows = rows(vec![topic("a", 0.05, &[("one", 0)])]);
+    let mut take = |time_s: f64, message| rows.take(0, time_s, message);
+    take(0.0, message(&["one"], &[0.0]));
+    take(0.01, message(&[], &[]));
+    take(0.02, message(&["one", "two"], &[0.0]));
+    // Of a gripper on the same topic: the arm is known between the messages beside it.
+    take(0.03, message(&["gripper"], &[0.0]));
+    take(0.04, message(&["one"], &[0.4]));
+    // The clock does not advance to the end.
+    (0..100).for_each(|_| take(0.04, message(&["one"], &[0.5])));
+    rows.lose(3);
+    rows.flush();
+    let next = |rows: &mut RowMaker| rows.advance().then(|| (rows.row().time_s, rows.row().unusable));
+    let found: Vec<(f64, u64)> = std::iter::from_fn(|| next(&mut rows)).collect();
+    let unusable: u64 = found.iter().map(|(_, unusable)| unusable).sum();
+    let times: Vec<f64> = found.into_iter().map(|(time_s, _)| time_s).collect();
+    assert_eq!((times, unusable, rows.left_out()), (vec![0.0, 0.03, 0.04], 1 + 1 + 100 + 3, [0, 0]));
+}

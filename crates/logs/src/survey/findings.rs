@@ -2,7 +2,7 @@
 
 use congruent_input::{
     Diagnostic, Severity,
-    display::{counted, first_of},
+    display::{counted, first_of, number},
 };
 
 use super::{
@@ -76,6 +76,7 @@ pub(super) fn of_topics(topics: &[TopicSurvey], format: LogFormat) -> Vec<Diagno
                 "which value is of which joint is unknown: the values of such a message are not used",
             ));
         }
+        found.extend(milliseconds(topic).filter(|_| format == LogFormat::JsonLines));
         if format == LogFormat::LeRobot {
             found.extend(motor_units(topic));
             // The times of each episode begin at 0.
@@ -92,6 +93,23 @@ pub(super) fn of_topics(topics: &[TopicSurvey], format: LogFormat) -> Vec<Diagno
         }
     }
     found
+}
+
+/// Times of which the steps are those of ms. A table finds the unit by them; a line says that its time is in s.
+fn milliseconds(topic: &TopicSurvey) -> Option<Diagnostic> {
+    /// Shortest and longest step, s: of 1 kHz and of 1 Hz if it is one of ms.
+    const STEPS: std::ops::RangeInclusive<f64> = 1.0..=1000.0;
+    topic.joints.as_ref()?;
+    let period_s = topic.times.as_ref()?.period_s.filter(|period_s| STEPS.contains(period_s))?;
+    let message = format!(
+        "the times of {} are {} s apart: as ms they would be those of {} Hz",
+        topic.name,
+        number(period_s),
+        number(1e3 / period_s)
+    );
+    Some(Diagnostic::warning(codes::log::MILLISECONDS, message).with_help(
+        "time_s is in s: divide by 1000 if the sender writes ms, as velocities and gaps are judged by it",
+    ))
 }
 
 /// What is to be known of the unit of the positions of a dataset, which has no field for it.

@@ -102,6 +102,8 @@ impl Pass {
                 self.descriptions.take(description);
             }
             LogEvent::Other(message) => self.topic(message.topic, &message.time).other(message),
+            // What they are is said by a gap, or by who listens.
+            LogEvent::Unusable(_) => {}
             LogEvent::Gap(gap) => {
                 self.unreadable_parts += 1;
                 if self.unreadable_parts <= MOST_GAPS {
@@ -145,6 +147,7 @@ impl Pass {
         if let Some(refused) = found.pop_if(|finding| finding.severity == Severity::Error) {
             return Err(refused.in_file(&source));
         }
+        found.extend(reader.warnings().iter().cloned());
         found.extend(findings::of_topics(&surveyed, reader.format()));
         found.extend(robot.iter().flat_map(findings::of_robot));
         self.warnings.extend(found.into_iter().map(|finding| finding.in_file(&source)));

@@ -12,7 +12,7 @@ use super::report::{
 use crate::{
     cdr::CDR,
     event::{LogFormat, TopicContent},
-    table_reading::{TableReading, TableTime},
+    table_reading::{TableEpisodes, TableReading, TableTime},
 };
 
 /// A survey in words.
@@ -101,13 +101,28 @@ fn headline(survey: &LogSurvey) -> String {
         LogFormat::JsonLines => of_bag("JSON Lines"),
         LogFormat::Rtde => of_bag("RTDE"),
         LogFormat::Table => format!("table, {duration}, {counted_entries}"),
-        LogFormat::Parquet => format!("table in Parquet, {duration}, {counted_entries}"),
+        LogFormat::Parquet => {
+            let episodes = survey.table.as_ref().and_then(|table| table.episodes.as_ref());
+            let episodes = episodes.map_or_else(String::new, |of| format!("{}, ", episodes_words(of)));
+            format!("table in Parquet, {episodes}{duration}, {counted_entries}")
+        }
         LogFormat::LeRobot => {
             let times = survey.topics.first().and_then(|topic| topic.times.as_ref());
-            let episodes = times.map_or(0, |times| times.restarts + 1);
-            format!("dataset of LeRobot, {}, {counted_entries}", entries(episodes, "episode"))
+            // Without the column each episode begins where the times go back.
+            let parts = || entries(times.map_or(0, |times| times.restarts + 1), "episode");
+            let episodes = survey.table.as_ref().and_then(|table| table.episodes.as_ref());
+            let episodes = episodes.map_or_else(parts, episodes_words);
+            format!("dataset of LeRobot, {episodes}, {counted_entries}")
         }
     }
+}
+
+/// How many episodes there are, and which one is read.
+fn episodes_words(episodes: &TableEpisodes) -> String {
+    let TableEpisodes { count, first, last, taken } = episodes;
+    let range = if count == &1 { format!("index {first}") } else { format!("indices {first} to {last}") };
+    let all = format!("{} ({range})", entries(*count, "episode"));
+    taken.map_or_else(|| all.clone(), |taken| format!("episode {taken} alone of {all}"))
 }
 
 /// How a table was read.

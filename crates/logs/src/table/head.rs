@@ -6,7 +6,7 @@ use congruent_input::{Diagnostic, SourceFile};
 
 use crate::{
     event::LogFormat,
-    table_reading::{DecimalMark, TableText},
+    table_reading::{DecimalMark, TableEpisodes, TableText},
 };
 
 /// The beginning of a table, by which it is judged.
@@ -58,4 +58,10 @@ pub(crate) struct OpenTable {
     pub(crate) format: LogFormat,
     /// How a text is written; `None` if it is none.
     pub(crate) text: Option<TableText>,
+    /// Columns of which nothing is read, beside those of the head.
+    pub(crate) not_read: Vec<String>,
+    /// What is suspicious about its head.
+    pub(crate) warnings: Vec<Diagnostic>,
+    /// The episodes that it has.
+    pub(crate) episodes: Option<TableEpisodes>,
 }

@@ -14,7 +14,7 @@ use crate::{
     codes,
     event::{EventTime, LogEvent, LogFormat, LogGap, LogReader, LogTopic, LoggedJoints, TopicContent},
     options::LogOptions,
-    table_reading::{DecimalMark, TableReading, TableText, TableTime},
+    table_reading::{DecimalMark, TableReading, TableTime},
     tcp_pose::pose_of_ur,
 };
 
@@ -35,6 +35,7 @@ pub(crate) struct TableReader {
     /// Rows that were read.
     rows: u32,
     faults: RowFaults,
+    warnings: Vec<Diagnostic>,
     is_at_end: bool,
 }
 
@@ -75,7 +76,7 @@ impl TableReader {
     /// # Errors
     /// It has no column of a joint, or its rows have no time.
     pub(crate) fn new(path: &Path, table: OpenTable, options: &LogOptions) -> Result<Self, Diagnostic> {
-        let OpenTable { source, head, rows, format, text } = table;
+        let OpenTable { source, head, rows, format, text, not_read, warnings, episodes } = table;
         let time = row_time(&head, options).map_err(|fault| fault.in_file(&source))?;
         let of_time = match time {
             RowTime::Column(column) => Some(column.column),
@@ -86,12 +87,13 @@ impl TableReader {
                 FoundTime::None => None,
             },
         };
-        let columns = find_columns(&head, of_time, &options.joints);
+        let mut columns = find_columns(&head, of_time, &options.joints);
+        columns.unused.extend(not_read);
         if columns.cells.is_empty() {
             return Err(no_columns(&columns, options).in_file(&source));
         }
         Ok(Self {
-            reading: reading(&head, text, time, &columns),
+            reading: TableReading { text, episodes, ..reading(&head, time, &columns) },
             topics: topics(path, format, &columns),
             source,
             format,
@@ -105,6 +107,7 @@ impl TableReader {
             first_ns: None,
             rows: 0,
             faults: RowFaults::default(),
+            warnings,
             is_at_end: false,
         })
     }
@@ -204,6 +207,10 @@ impl LogReader for TableReader {
         Ok(self.events.pop_front())
     }
 
+    fn warnings(&self) -> &[Diagnostic] {
+        &self.warnings
+    }
+
     fn table(&self) -> Option<&TableReading> {
         Some(&self.reading)
     }
@@ -240,7 +247,7 @@ fn no_columns(columns: &ReadColumns, options: &LogOptions) -> Diagnostic {
         .with_help(format!("{hint}; columns: {listed}"))
 }
 
-fn reading(head: &TableHead, text: Option<TableText>, time: RowTime, columns: &ReadColumns) -> TableReading {
+fn reading(head: &TableHead, time: RowTime, columns: &ReadColumns) -> TableReading {
     let time = match time {
         RowTime::Column(TimeColumn { column, unit, unit_from }) => {
             TableTime::Column { name: head.name(column), unit, unit_from }
@@ -248,12 +255,13 @@ fn reading(head: &TableHead, text: Option<TableText>, time: RowTime, columns: &R
         RowTime::RateHz(rate_hz) => TableTime::RateHz(rate_hz),
     };
     TableReading {
-        text,
+        text: None,
         has_header: head.names.is_some(),
         time,
         preset: columns.preset,
         columns: columns.described.clone(),
         unused: columns.unused.clone(),
+        episodes: None,
     }
 }
 

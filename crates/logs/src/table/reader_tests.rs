@@ -26,7 +26,7 @@ fn joints(events: &[LogEvent]) -> Vec<&LoggedJoints> {
 }
 
 fn at_rate(rate_hz: f64) -> LogOptions {
-    LogOptions { rate_hz: Some(rate_hz), joints: Vec::new() }
+    LogOptions { rate_hz: Some(rate_hz), ..LogOptions::default() }
 }
 
 #[test]

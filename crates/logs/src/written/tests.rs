@@ -53,7 +53,7 @@ fn a_log_is_read_back_as_it_was_written() {
             }
             LogEvent::Description(found) => assert_eq!(found.text, URDF),
             LogEvent::Other(other) => assert_eq!(other.fault, None),
-            LogEvent::Gap(gap) => panic!("{gap:?}"),
+            LogEvent::Unusable(_) | LogEvent::Gap(_) => panic!("{event:?}"),
         }
     }
     assert_eq!((poses, positions.len()), (3, 4));

@@ -18,8 +18,28 @@ pub(super) fn scene(report: &RunReport, run: &RunContent) -> Markup {
     // Without poses of that moment there is still the picture of model and twin.
     let violated = first_violation(report).and_then(|found| Some((found, poses(run, found.2)?)));
     match violated {
-        Some(((check, measure, moment), poses)) => at_violation(check, measure, moment, &poses, run),
-        None => at_largest_difference(run),
+        Some(((check, measure, moment), poses)) => {
+            let arms = vec![arm("twin", twin_words(report).of_arm, &poses, run)];
+            let figure = figure_of(arms, &poses, &moment.subject, run);
+            let caption = at_violation(check, measure, moment, run);
+            TwoArms { figure, tips_apart_m: 0.0 }.markup(&caption)
+        }
+        None => at_largest_difference(twin_words(report), run),
+    }
+}
+
+/// What the model is compared with, as it is called.
+#[derive(Clone, Copy)]
+struct TwinWords {
+    name: &'static str,
+    of_arm: &'static str,
+}
+
+/// A log has no physics: its arm is the URDF at the joints that were recorded.
+fn twin_words(report: &RunReport) -> TwinWords {
+    match &report.source {
+        Some(_) => TwinWords { name: "log", of_arm: "log" },
+        None => TwinWords { name: "twin", of_arm: "twin (physics)" },
     }
 }
 
@@ -43,21 +63,16 @@ fn poses(run: &RunContent, moment: &Moment) -> Option<Vec<Isometry3<f64>>> {
     Some(poses.iter().map(Pose::to_isometry).collect())
 }
 
-fn at_violation(
-    check: &CheckResult,
-    measure: &Measure,
-    moment: &Moment,
-    poses: &[Isometry3<f64>],
-    run: &RunContent,
-) -> Markup {
-    let subjects = subjects(&moment.subject, &run.description.robot);
-    let arms = vec![arm("twin", "twin (physics)", poses, run)];
-    let figure = Figure { bodies: bodies(poses, run, &subjects), arms, path: run.series.tcp_path.points() };
-    let caption = html! {
+fn at_violation(check: &CheckResult, measure: &Measure, moment: &Moment, run: &RunContent) -> Markup {
+    html! {
         "The robot at " (quantity(moment.time_s, "s")) ", where check " (check.check) " is violated first: "
         (sentence_at(measure, moment)) "." (moving(run))
-    };
-    TwoArms { figure, tips_apart_m: 0.0 }.markup(&caption)
+    }
+}
+
+fn figure_of(arms: Vec<DrawnArm>, poses: &[Isometry3<f64>], subject: &str, run: &RunContent) -> Figure {
+    let subjects = subjects(subject, &run.description.robot);
+    Figure { bodies: bodies(poses, run, &subjects), arms, path: run.series.tcp_path.points() }
 }
 
 /// Links, obstacles and zones that a value is about: of a joint, the link that moves with it.
@@ -68,15 +83,15 @@ fn subjects<'a>(subject: &'a str, robot: &'a Robot) -> Vec<&'a str> {
     subject.split("--").chain(joint_values).collect()
 }
 
-fn at_largest_difference(run: &RunContent) -> Markup {
+fn at_largest_difference(words: TwinWords, run: &RunContent) -> Markup {
     let largest = &run.series.largest;
     let tip = run.description.tip.get();
     let model: Vec<Isometry3<f64>> = largest.model.iter().map(Pose::to_isometry).collect();
-    let arms = vec![arm("twin", "twin (physics)", &largest.twin, run), arm("model", "model", &model, run)];
+    let arms = vec![arm("twin", words.of_arm, &largest.twin, run), arm("model", "model", &model, run)];
     let figure = Figure { bodies: bodies(&largest.twin, run, &[]), arms, path: run.series.tcp_path.points() };
     let tips_apart_m = (largest.twin[tip].translation.vector - model[tip].translation.vector).norm();
     let caption = html! {
-        "Model and twin where they differ most, at " (quantity(largest.time_s, "s")) ": by "
+        "Model and " (words.name) " where they differ most, at " (quantity(largest.time_s, "s")) ": by "
         (length(largest.error.position_m)) " and " (angle(largest.error.orientation_rad)) " at link "
         (run.names.links[largest.link]) "." (moving(run))
     };

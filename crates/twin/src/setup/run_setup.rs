@@ -337,6 +337,7 @@ impl RunSetup {
             payloads: &self.payloads,
             is_recorded: self.recorded.is_some(),
             held: self.recorded.as_ref().map_or(&[], |recorded| &recorded.held),
+            unknown: self.recorded.as_ref().map_or(&[], |recorded| &recorded.unknown),
             poses: self.poses(),
             dynamics: self.declared_dynamics(),
         };

@@ -1,7 +1,7 @@
 //! Sources of joint states: a simulation, a log or a live robot.
 
 use congruent_description::RobotQ;
-use congruent_monitors::{ContactForce, JointSample, StepForces};
+use congruent_monitors::{ContactForce, JointSample, LeftOutInstants, StepForces};
 use congruent_motion::{ServoResult, SlowedMotion};
 use nalgebra::Isometry3;
 
@@ -64,14 +64,14 @@ pub trait JointStateSource {
     /// end of a source that does not know it before is found by [`Advance::End`], and judges nothing.
     fn is_last(&self) -> bool;
 
-    /// Instants that the source has left out since the sample before, since a joint was not known at them.
-    fn left_out(&self) -> u64 {
-        0
+    /// Instants that the source has left out since the sample before.
+    fn left_out(&self) -> LeftOutInstants {
+        LeftOutInstants::default()
     }
 
     /// Instants that the source has left out after the present sample, if no sample follows.
-    fn left_out_after(&self) -> u64 {
-        0
+    fn left_out_after(&self) -> LeftOutInstants {
+        LeftOutInstants::default()
     }
 
     /// Whether the present sample begins another part of what was recorded: its time from the sample before means nothing.

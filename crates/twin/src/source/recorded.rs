@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use congruent_description::{Robot, RobotQ};
 use congruent_logs::{EventTime, LiveReader, LogStream, StreamEvent, StreamedPose};
-use congruent_monitors::{JointSample, JointStateView, SetpointView};
+use congruent_monitors::{JointSample, JointStateView, LeftOutInstants, SetpointView};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 
 use super::{
@@ -32,7 +32,7 @@ struct RecordedJoints {
     recorded_effort: Vec<f64>,
     setpoint_q: RobotQ,
     setpoint_qd: Vec<f64>,
-    left_out: u64,
+    left_out: LeftOutInstants,
     begins_part: bool,
     message: EventTime,
 }
@@ -103,7 +103,7 @@ impl<'a> RecordedSource<'a> {
             recorded_effort: vec![f64::NAN; dof],
             setpoint_q: start.clone(),
             setpoint_qd: vec![f64::NAN; dof],
-            left_out: 0,
+            left_out: LeftOutInstants::default(),
             begins_part: false,
             message: EventTime::default(),
         };
@@ -180,7 +180,8 @@ impl<'a> RecordedSource<'a> {
 
     fn fill_next(&mut self) {
         let (row, next) = (self.stream.row(), &mut self.next);
-        (next.time_s, next.left_out) = (row.time_s, row.left_out);
+        next.time_s = row.time_s;
+        next.left_out = LeftOutInstants { incomplete: row.left_out, unusable: row.unusable };
         (next.begins_part, next.message) = (self.stream.begins_part(), row.message);
         next.qd.copy_from_slice(&row.qd);
         // Joints that the log does not have stay where they are.
@@ -297,12 +298,16 @@ impl JointStateSource for RecordedSource<'_> {
         JointSample { truth: None, measured: JointStateView { q, qd, effort }, setpoint, recorded_effort }
     }
 
-    fn left_out(&self) -> u64 {
+    fn left_out(&self) -> LeftOutInstants {
         self.now.left_out
     }
 
-    fn left_out_after(&self) -> u64 {
-        if self.has_next { 0 } else { self.stream.left_out_since_row() }
+    fn left_out_after(&self) -> LeftOutInstants {
+        if self.has_next {
+            return LeftOutInstants::default();
+        }
+        let [incomplete, unusable] = self.stream.left_out_since_row();
+        LeftOutInstants { incomplete, unusable }
     }
 
     fn begins_part(&self) -> bool {

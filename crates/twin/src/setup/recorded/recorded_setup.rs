@@ -42,6 +42,8 @@ pub struct RecordedSetup {
     pub clock: RunClock,
     /// Joints that the log does not have: they stay at their start.
     pub held: Vec<String>,
+    /// Those of them that are between base and tip, and of which nobody has said that they stay there.
+    pub unknown: Vec<String>,
 }
 
 impl RecordedSetup {
@@ -56,7 +58,7 @@ impl RecordedSetup {
         let settings = scenario.source.as_ref()?;
         let place = place.key("source");
         let joints = description.robot.movable_joint_names().map(str::to_owned).collect();
-        let options = LogOptions { rate_hz: settings.rate_hz, joints };
+        let options = LogOptions { rate_hz: settings.rate_hz, episode: settings.episode, joints };
         let (path, surveyed) = if let Some(surveyed) = stream {
             (PathBuf::from(&settings.log), surveyed.clone())
         } else {
@@ -78,6 +80,7 @@ impl RecordedSetup {
                 settings.maximum_gap_s.unwrap_or_else(|| maximum_gap_s(settings, &survey, &topic.topic));
         }
         let clock = clock_of(settings, &survey, &chosen);
+        let unknown = found.keep(unknown(settings, place, &chosen, description))?;
         let compared = found.keep(poses(settings, place, &survey, description))?;
         warnings.extend(surveyed.warnings);
         let selection = StreamSelection {
@@ -106,8 +109,34 @@ impl RecordedSetup {
             selection,
             survey,
             held: chosen.held,
+            unknown,
         })
     }
+}
+
+/// Joints that decide where the tip is and of which nothing is known.
+///
+/// # Errors
+/// A joint is said to be held that the robot does not have, or that the log has.
+fn unknown(
+    settings: &SourceSettings,
+    place: FilePlace<'_>,
+    chosen: &ChosenJoints,
+    description: &RobotDescription,
+) -> Result<Vec<String>, Diagnostic> {
+    if let Some(name) = settings.held.iter().find(|name| !chosen.held.contains(name)) {
+        let message = format!("held: \"{name}\" is no joint of the robot that the log lacks");
+        let help = match &chosen.held[..] {
+            [] => "the log has every joint: remove `held`".to_owned(),
+            held => format!("it lacks {}", held.join(", ")),
+        };
+        let error = Diagnostic::error(codes::scenario::LOGGED_JOINTS, message).with_help(help);
+        return Err(place.key("held").mark(error));
+    }
+    let names: Vec<&str> = description.robot.movable_joint_names().collect();
+    let on_chain: Vec<&str> = description.moving_coordinates().into_iter().map(|at| names[at]).collect();
+    let is_unknown = |name: &&String| on_chain.contains(&name.as_str()) && !settings.held.contains(name);
+    Ok(chosen.held.iter().filter(is_unknown).cloned().collect())
 }
 
 /// Whether the part of the log that is taken begins before it ends.
