@@ -15,6 +15,7 @@ mod scenarios;
 mod servo;
 #[cfg(feature = "db3")]
 mod sqlite_bags;
+mod sweep;
 mod trajectories;
 mod velocity_rates;
 mod watch;

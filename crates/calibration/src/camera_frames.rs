@@ -136,7 +136,9 @@ impl CameraEstimate<'_> {
     fn rates(&self, direction: &[(usize, f64)]) -> [FrameRate; 2] {
         let at = |step: f64| {
             let mut corrections = self.corrections.to_vec();
-            direction.iter().for_each(|&(at, rate)| corrections[at] += step * rate);
+            for &(at, rate) in direction {
+                corrections[at] += step * rate;
+            }
             self.poses(&corrections)
         };
         let (before, after) = (at(-STEP), at(STEP));

@@ -170,7 +170,7 @@ fn a_camera_in_the_hand_needs_whole_points() {
 #[test]
 fn pictures_that_turn_about_one_axis_do_not_determine_the_camera() {
     let robot = ur5e();
-    let mut tree = UrdfTree::new(&robot.robot);
+    let tree = UrdfTree::new(&robot.robot);
     let mut links = vec![Pose::identity(); robot.robot.links().len()];
     let (camera, target) = (pose(CAMERA), pose(TARGET));
     let rows: Vec<MeasuredRow> = (0_u8..12)

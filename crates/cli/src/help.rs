@@ -11,7 +11,7 @@ use congruent::{input::nearest, text::layout::paragraph};
 /// The groups of commands, in the order of the help.
 const GROUPS: [(&str, &[&str]); 6] = [
     ("Check", &["check", "lint", "describe", "explain"]),
-    ("Run", &["run", "replay", "watch", "new"]),
+    ("Run", &["run", "sweep", "replay", "watch", "new"]),
     ("Look", &["view", "inspect", "compare"]),
     (
         "Compute",
@@ -22,7 +22,7 @@ const GROUPS: [(&str, &[&str]); 6] = [
 ];
 
 /// Two examples or more of each command, by its name, in the root of the project.
-const EXAMPLES: [(&str, &[&str]); 26] = [
+const EXAMPLES: [(&str, &[&str]); 27] = [
     (
         "check",
         &[
@@ -47,6 +47,13 @@ const EXAMPLES: [(&str, &[&str]); 26] = [
             "congruent run scenarios/ur5e_pick.toml",
             "congruent run scenarios/ur5e_pick.toml --set simulation.step_s=0.002 --out fine",
             "congruent run --faults scenarios/ur5e_pick.toml",
+        ],
+    ),
+    (
+        "sweep",
+        &[
+            "congruent sweep run scenarios/ur5e_payload.sweep.toml --out payload --cases 0..8",
+            "congruent sweep run scenarios/ur5e_payload.sweep.toml --out parts --shard 1/16",
         ],
     ),
     (

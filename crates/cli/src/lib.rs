@@ -24,6 +24,8 @@ mod quantity;
 mod recording;
 mod run;
 mod schema;
+mod sweep;
+mod sweep_plans;
 mod terminal;
 mod tolerance;
 mod unfinished_junit;
@@ -80,6 +82,7 @@ enum Command {
     Run(run::Arguments),
     Replay(run::replay::Arguments),
     Watch(watch::Arguments),
+    Sweep(sweep::Arguments),
     New(new::Arguments),
     #[cfg(feature = "recording")]
     View(recording::view::Arguments),
@@ -202,6 +205,7 @@ fn answer(command: Command, printer: &Printer) -> Result<u8, Failure> {
         Command::Run(arguments) => run::run(&arguments, printer),
         Command::Replay(arguments) => run::replay::run(&arguments, printer),
         Command::Watch(arguments) => watch::run(&arguments, printer),
+        Command::Sweep(arguments) => sweep::run(&arguments, printer),
         Command::Check(arguments) => model::check::run(&arguments, printer),
         Command::Lint(arguments) => model::lint::run(&arguments, printer),
         Command::Explain(arguments) => explain::run(&arguments.code, printer),

@@ -58,6 +58,7 @@ pub fn all_codes() -> Vec<&'static Code> {
     let mut codes = congruent_lint_report::codes::known_codes();
     codes.extend(congruent_logs::codes::ALL);
     codes.extend(congruent_replay::codes::ALL);
+    codes.extend(congruent_sweep::codes::ALL);
     codes.extend(congruent_starter::codes::ALL);
     codes.extend(ALL);
     codes

@@ -31,6 +31,7 @@ pub use congruent_results as results;
 pub use congruent_scenario as scenario;
 pub use congruent_simulation as simulation;
 pub use congruent_starter as starter;
+pub use congruent_sweep as sweep;
 pub use congruent_tables as tables;
 pub use congruent_twin as twin;
 pub use congruent_writers as writers;

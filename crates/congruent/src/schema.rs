@@ -21,6 +21,7 @@ use congruent_logs::LogSurvey;
 use congruent_proximity::{DisabledPairs, DistanceReport};
 use congruent_results::report::{FaultTable, RunReport};
 use congruent_scenario::Scenario;
+use congruent_sweep::{plan::sweep_plan_schema, store::SweepProgress, summary::SweepSummary};
 use schemars::{
     JsonSchema, Schema,
     generate::SchemaSettings,
@@ -61,6 +62,9 @@ impl Document {
             configurations_schema,
         ),
         Self::new("report", "report.json of a run, printed by `run`", written::<RunReport>),
+        Self::new("sweep_plan", "plan of a sweep (*.sweep.toml)", sweep_plan_schema),
+        Self::new("sweep", "summary of a sweep, printed by `sweep merge`", written::<SweepSummary>),
+        Self::new("sweep_progress", "printed by `sweep status`", written::<SweepProgress>),
         Self::new("watch", "each line of the answer to a stream, printed by `watch`", written::<WatchLine>),
         Self::new(
             "faults",

@@ -12,8 +12,10 @@ mod parts;
 mod picture;
 mod run;
 mod series;
+mod sweep;
 
 pub use calibration::{CalibrationSource, calibration_page};
 pub use check::{CheckEntry, CheckedRobot, check_page};
 pub use index::{IndexEntry, index_page};
 pub use run::PageFormat;
+pub use sweep::sweep_page;

@@ -157,7 +157,7 @@ pub fn execute_with<'a>(
     progress: impl FnMut(u64),
 ) -> Result<(RunReport, OutputFolder), ExecuteError> {
     let folder = OutputFolder::create(&options.out, &setup.scenario.name, &setup.inputs)?;
-    folder.write(RESOLVED, resolved(setup, &folder).to_toml().as_bytes())?;
+    folder.write(RESOLVED, resolved_text(setup, &folder).as_bytes())?;
     let cannot_run =
         |source: RunError| ExecuteError::CannotRun { scenario: setup.scenario.name.clone(), source };
     let run = begin(setup).map_err(cannot_run)?.interrupted_by(options.interrupt);
@@ -167,6 +167,17 @@ pub fn execute_with<'a>(
         Ok(()) => Ok((report, folder)),
         Err(source) => Err(ExecuteError::Lost { report: Box::new(report), source }),
     }
+}
+
+/// The resolved scenario; values of the robot that were set are not in it, so that a comment has the call that sets them again.
+fn resolved_text(setup: &RunSetup, folder: &OutputFolder) -> String {
+    let of_robot = setup.overrides.iter().filter(|change| change.starts_with("robot."));
+    let set: Vec<String> = of_robot.map(|change| format!(" --set '{change}'")).collect();
+    let scenario = resolved(setup, folder).to_toml();
+    if set.is_empty() {
+        return scenario;
+    }
+    format!("# Values of the robot were set: congruent run {RESOLVED}{}\n{scenario}", set.concat())
 }
 
 /// The scenario with every default, and its files by their paths from the results: nobody else has the folders of this machine.

@@ -56,7 +56,7 @@ struct SetValue<'a> {
 impl SetValue<'_> {
     /// The inertia of a link with another mass or centre of mass.
     fn in_link(&self, link: &Link) -> Result<Inertia, String> {
-        let mut inertia = link.inertia.clone().ok_or("the link has no inertia")?;
+        let mut inertia = link.inertia.ok_or("the link has no inertia")?;
         match self.key {
             "mass_kg" => {
                 let mass_kg = self.not_negative()?;

@@ -13,6 +13,7 @@ pub struct WrittenNames {
 
 impl WrittenNames {
     /// The names of a robot that has been rewritten in other variables: those in the file by those that it has.
+    #[must_use]
     pub fn rewritten(self, joints: BTreeMap<String, String>, links: BTreeMap<String, String>) -> Self {
         let links = links.into_iter().map(|(name, written)| {
             let known = self.links.get(&written).cloned();
@@ -22,6 +23,7 @@ impl WrittenNames {
     }
 
     /// The same without these links.
+    #[must_use]
     pub fn without_links<'a>(mut self, links: impl Iterator<Item = &'a String>) -> Self {
         Arc::make_mut(&mut self.links).extend(links.map(|link| (link.clone(), None)));
         self

@@ -11,6 +11,7 @@ mod row_reader;
 pub mod run_columns;
 mod stream;
 mod table;
+pub mod writer;
 
 pub use json_list::{JsonList, is_entry};
 pub use read::read_table;

@@ -22,6 +22,7 @@ mod options;
 mod recording;
 mod run;
 mod same_point;
+mod sweep;
 mod watch;
 
 pub use arm::{
@@ -44,4 +45,5 @@ pub use options::TextOptions;
 pub use recording::{disagreement_sentence, rechecked_text, recording_text};
 pub use run::run_text;
 pub use same_point::same_point_text;
+pub use sweep::{sweep_progress_text, sweep_text};
 pub use watch::watch_text;

@@ -81,6 +81,10 @@ pub const ARROWS: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "sweep",
+        &["input", "tables", "description", "fault-diagnosis", "scenario", "monitors", "twin", "results"],
+    ),
+    (
         "replay",
         &[
             "input",
@@ -135,6 +139,7 @@ pub const ARROWS: &[(&str, &[&str])] = &[
             "fault-diagnosis",
             "twin",
             "results",
+            "sweep",
         ],
     ),
     (
@@ -176,6 +181,7 @@ pub const ARROWS: &[(&str, &[&str])] = &[
             "recording",
             "starter",
             "live-report",
+            "sweep",
         ],
     ),
     (
@@ -211,6 +217,7 @@ pub const ARROWS: &[(&str, &[&str])] = &[
             "recording",
             "page",
             "starter",
+            "sweep",
             "live-report",
             "text",
         ],

@@ -215,17 +215,26 @@ fn interpretations<'a>(nominal: &NominalChain<'a>, options: &CalibrationOptions)
         let condition = format!("{name} is positive in the opposite direction");
         all.push(plain(&condition, joints(vec![coordinate], -1.0)));
     }
+    all.extend(free_frames(options));
+    all
+}
+
+/// The rows as they are, with frames free in addition.
+fn free_frames<'a>(options: &CalibrationOptions) -> Vec<Interpretation<'a>> {
     let as_it_is = || -> Reinterpret<'a> { Box::new(|row| Some(row.clone())) };
     let frames: [(&str, &'static [&'static str]); 3] = [
         ("the pose of the base is free too", &["base"]),
         ("the pose of the tool is free too", &["tool"]),
         ("the poses of base and tool are free too", &["base", "tool"]),
     ];
-    all.extend(frames.map(|(condition, free)| {
-        let groups: Vec<&str> = options.free.iter().map(String::as_str).chain(free.iter().copied()).collect();
-        let condition = format!("{condition} (--free {})", groups.join(","));
-        Interpretation { condition, reinterpret: as_it_is(), free, camera: options.camera }
-    }));
+    let mut all: Vec<Interpretation<'a>> = frames
+        .map(|(condition, free)| {
+            let groups: Vec<&str> =
+                options.free.iter().map(String::as_str).chain(free.iter().copied()).collect();
+            let condition = format!("{condition} (--free {})", groups.join(","));
+            Interpretation { condition, reinterpret: as_it_is(), free, camera: options.camera }
+        })
+        .into();
     // A camera sees the inverse pose, and neither of its frames is known.
     all.extend(options.camera.is_none().then(|| Interpretation {
         condition:

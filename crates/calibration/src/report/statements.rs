@@ -8,7 +8,10 @@ use super::calibration_report::{
     AlignedFrames, CalibrationReport, CalibrationVerdict, EstimatedCorrection, Recommendation,
     ResidualSummary, RowResidual,
 };
-use crate::estimation::{FEWEST_CONFIGURATIONS, ParameterUnit};
+use crate::{
+    camera_frames::CameraFrames,
+    estimation::{FEWEST_CONFIGURATIONS, ParameterUnit},
+};
 
 /// Most terms of a relation that are listed.
 const MOST_TERMS: usize = 4;
@@ -170,7 +173,7 @@ fn too_large(largest: Option<(&EstimatedCorrection, f64)>) -> String {
 }
 
 fn undetermined(report: &CalibrationReport) -> String {
-    let motions = report.camera.as_ref().map(|camera| camera.undetermined_in_words());
+    let motions = report.camera.as_ref().map(CameraFrames::undetermined_in_words);
     format!(
         "the measurements do not determine the camera: {}. Turn the tool about two axes that are not parallel, by 30 deg or more. \
          What an arm cannot turn, such as the height of a camera on a SCARA, must be measured otherwise",

@@ -1,5 +1,7 @@
 //! `--camera`: rows that a camera measured, and the poses of camera and target that are free with it.
 
+#![expect(clippy::doc_markdown, reason = "the comments are printed as help, where backticks are noise")]
+
 use congruent::calibration::{CAMERA_GROUPS, CameraMount};
 
 use crate::input::named;

@@ -18,7 +18,7 @@ use crate::recording::{live::LiveFormat, viewer::Viewer};
 ///
 /// Ctrl-C and SIGTERM end the runs in order: what was computed until then is written, and the exit code is 3. The second
 /// ends the call at once.
-#[derive(Debug, clap::Args)]
+#[derive(Debug, Clone, clap::Args)]
 pub(crate) struct Arguments {
     /// Scenario files (.toml) to run.
     #[arg(required = true)]
@@ -54,7 +54,7 @@ pub(crate) struct Arguments {
 }
 
 /// What is shown of scenarios that inject faults.
-#[derive(Debug, Default, clap::Args)]
+#[derive(Debug, Default, Clone, clap::Args)]
 pub(super) struct FaultArguments {
     /// Write no results; show which checks detect which injected fault, after what time, and what the diagnosis finds.
     ///
@@ -108,6 +108,11 @@ impl Arguments {
             ci: ci.clone(),
             access: access.clone(),
         }
+    }
+
+    /// The same call with these scenarios.
+    pub(super) fn of(&self, scenarios: Vec<PathBuf>) -> Self {
+        Self { scenarios, ..self.clone() }
     }
 
     /// Number of threads for this number of scenarios.

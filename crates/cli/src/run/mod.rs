@@ -21,6 +21,7 @@ use crate::{
     batch::{Answer, Batch},
     failure::Failure,
     interrupt::flag_of_signals,
+    sweep_plans::without_plans,
     terminal::{print::Printer, progress::ProgressLines},
 };
 
@@ -35,6 +36,8 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         return faults::run(arguments, printer);
     }
     let recording = recording_format(arguments, printer)?;
+    let scenarios = without_plans(&arguments.scenarios, printer);
+    let arguments = &arguments.of(scenarios);
     let batch = Batch::begin(&arguments.scenarios, &arguments.ci, printer)?;
     let recordings = recordings(recording.as_deref());
     let options = Options { out: arguments.out.clone(), recordings, interrupt: None };

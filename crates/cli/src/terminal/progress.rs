@@ -74,6 +74,16 @@ impl ProgressLines {
         RunProgress(self.0.as_ref().map(bar))
     }
 
+    /// The line of a sweep with so many cases.
+    pub(crate) fn start_cases(&self, name: &str, cases: u64) -> RunProgress {
+        let style = ProgressStyle::with_template("{prefix:20!} {bar:18} {pos}/{len} cases {eta:>5} left")
+            .unwrap_or_else(|_| ProgressStyle::default_bar());
+        let bar = |bars: &MultiProgress| {
+            bars.add(ProgressBar::new(cases).with_style(style).with_prefix(name.to_owned()))
+        };
+        RunProgress(self.0.as_ref().map(bar))
+    }
+
     /// Prints while the lines are away.
     pub(crate) fn suspended(&self, print: impl FnOnce()) {
         match &self.0 {

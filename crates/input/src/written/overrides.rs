@@ -87,6 +87,12 @@ impl Override {
         number(&self.value()?)
     }
 
+    /// The value, if it is a whole number that is not negative, also one that is written as `7.0`.
+    pub fn whole_number(&self) -> Option<u64> {
+        let number = self.number().ok().filter(|number| number.fract() == 0.0)?;
+        format!("{number}").parse().ok()
+    }
+
     /// Three coordinates from a list, or those of `before` with the one that `entry` counts, from 1.
     ///
     /// # Errors
@@ -124,6 +130,16 @@ impl Override {
     pub fn seed(seed: u64) -> Self {
         let written = format!("seed={seed}");
         Self { path: vec!["seed".to_owned()], written, document: format!("value = {seed}") }
+    }
+
+    /// An override of the scenario's name, which is also that of the folder of its results.
+    pub fn name(name: &str) -> Self {
+        let value = toml::Value::String(name.to_owned());
+        Self {
+            path: vec!["name".to_owned()],
+            written: format!("name={name}"),
+            document: format!("value = {value}"),
+        }
     }
 
     /// Puts the value into a document, at the place of the value that it replaces, or of the table that gets
@@ -185,7 +201,13 @@ impl Override {
     }
 
     /// The value of a document that it replaces; `None` if a table has no such key yet.
-    fn find<'d, 'a>(
+    ///
+    /// # Errors
+    /// As [`Override::apply`].
+    ///
+    /// # Panics
+    /// Never: a path has a key.
+    pub fn find<'d, 'a>(
         &self,
         document: &'d Spanned<DeTable<'a>>,
     ) -> Result<Option<&'d Spanned<DeValue<'a>>>, Diagnostic> {
@@ -215,12 +237,11 @@ impl Override {
         let document = toml_text::parse_document(text)?;
         let place = self.find(&document)?.map(Spanned::span);
         let value = self.document.split_once('=').map_or("", |(_, value)| value.trim());
-        let edit = match place {
-            Some(span) => TextEdit { span, text: value.to_owned() },
-            None => {
-                let key: Vec<String> = self.path.iter().map(|key| toml_key(key)).collect();
-                TextEdit { span: 0..0, text: format!("{} = {value}\n", key.join(".")) }
-            }
+        let edit = if let Some(span) = place {
+            TextEdit { span, text: value.to_owned() }
+        } else {
+            let key: Vec<String> = self.path.iter().map(|key| toml_key(key)).collect();
+            TextEdit { span: 0..0, text: format!("{} = {value}\n", key.join(".")) }
         };
         let with_value = edited(text, &[edit]);
         match toml_text::parse_document(&with_value) {

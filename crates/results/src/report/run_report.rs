@@ -131,6 +131,16 @@ pub struct Versions {
     pub physics: String,
 }
 
+impl Versions {
+    /// Of this program and the engine that it is built with.
+    pub fn current() -> Self {
+        Self {
+            congruent: env!("CARGO_PKG_VERSION").to_owned(),
+            physics: congruent_simulation::ENGINE.to_owned(),
+        }
+    }
+}
+
 /// The motions as they were: one that was made slower in the run delays those after it.
 fn motions(setup: &RunSetup, slowed: &[SlowedMotion]) -> Vec<MotionTimes> {
     let kinds = setup.scenario.motion.iter().map(|motion| motion.kind().to_owned()).enumerate();
@@ -197,10 +207,7 @@ impl RunReport {
             trajectory_sha256: outcome.trajectory_sha256,
             links: links.map(|(link, &source)| LinkSource { link: link.name.clone(), source }).collect(),
             inputs: setup.inputs.clone(),
-            versions: Versions {
-                congruent: env!("CARGO_PKG_VERSION").to_owned(),
-                physics: congruent_simulation::ENGINE.to_owned(),
-            },
+            versions: Versions::current(),
             warnings: warnings.map(|warning| portable_finding(warning.into())).collect(),
         }
     }

@@ -3,15 +3,16 @@
 use congruent_description::{JointKind, LinkIndex, RobotDescription};
 use congruent_kinematics::{Pose, PoseError};
 use congruent_monitors::{Names, Sample};
-use congruent_tables::run_columns::{POSITION, STEP, TIME, WORST};
+use congruent_tables::{
+    run_columns::{POSITION, STEP, TIME, WORST},
+    writer::{ColumnKind, TableWriter, WrittenCell, WrittenColumn},
+};
 use nalgebra::Isometry3;
 
-use super::table::{ColumnKind, TableWriter, TrajectoryCell, TrajectoryColumn};
-
 /// The columns of a robot, in the order of [`SampleCells::write`].
-pub(super) fn header(description: &RobotDescription) -> Vec<TrajectoryColumn> {
+pub(super) fn header(description: &RobotDescription) -> Vec<WrittenColumn> {
     let robot = &description.robot;
-    let mut header = vec![number(TIME), TrajectoryColumn { name: STEP.to_owned(), kind: ColumnKind::Count }];
+    let mut header = vec![number(TIME), WrittenColumn { name: STEP.to_owned(), kind: ColumnKind::Count }];
     for &joint in robot.movable_joints() {
         let joint = robot.joint(joint);
         let (position, speed, effort) = match joint.kind {
@@ -33,7 +34,7 @@ pub(super) fn header(description: &RobotDescription) -> Vec<TrajectoryColumn> {
         header.extend(values.iter().map(|value| number(&format!("{source}.{value}"))));
     }
     for [value, subject] in WORST {
-        header.extend([number(value), TrajectoryColumn { name: subject.to_owned(), kind: ColumnKind::Name }]);
+        header.extend([number(value), WrittenColumn { name: subject.to_owned(), kind: ColumnKind::Name }]);
     }
     header
 }
@@ -53,20 +54,18 @@ impl SampleCells {
 
     /// The cells of one sample.
     pub(super) fn write(&self, sample: &mut Sample<'_>, table: &mut dyn TableWriter) {
-        table.cell(TrajectoryCell::Number(sample.time_s));
-        table.cell(TrajectoryCell::Count(sample.step));
+        table.cell(WrittenCell::Number(sample.time_s));
+        table.cell(WrittenCell::Count(sample.step));
         let joints = &sample.joints;
         for at in 0..joints.state().q.len() {
-            table.cell(TrajectoryCell::Number(joints.state().q[at]));
+            table.cell(WrittenCell::Number(joints.state().q[at]));
             table.cell(entry(joints.state().qd, at));
             table.cell(entry(joints.state().effort, at));
             table.cell(
-                joints
-                    .setpoint
-                    .map_or(TrajectoryCell::Missing, |setpoint| TrajectoryCell::Number(setpoint.q[at])),
+                joints.setpoint.map_or(WrittenCell::Missing, |setpoint| WrittenCell::Number(setpoint.q[at])),
             );
-            table.cell(joints.setpoint.map_or(TrajectoryCell::Missing, |setpoint| entry(setpoint.qd, at)));
-            table.cell(TrajectoryCell::Number(joints.measured.q[at]));
+            table.cell(joints.setpoint.map_or(WrittenCell::Missing, |setpoint| entry(setpoint.qd, at)));
+            table.cell(WrittenCell::Number(joints.measured.q[at]));
         }
         let tip = self.tip.get();
         self.pose(&sample.twin[tip], table);
@@ -75,10 +74,10 @@ impl SampleCells {
         self.worst(sample.errors, |error| error.orientation_rad, table);
         match sample.clearance.nearest() {
             Some(nearest) => {
-                table.cell(TrajectoryCell::Number(nearest.distance_m));
-                table.cell(TrajectoryCell::Name(&self.names.pairs[nearest.pair]));
+                table.cell(WrittenCell::Number(nearest.distance_m));
+                table.cell(WrittenCell::Name(&self.names.pairs[nearest.pair]));
             }
-            None => [TrajectoryCell::Missing; 2].into_iter().for_each(|cell| table.cell(cell)),
+            None => [WrittenCell::Missing; 2].into_iter().for_each(|cell| table.cell(cell)),
         }
     }
 
@@ -87,7 +86,7 @@ impl SampleCells {
         let position = root_from_tcp.translation.iter().copied();
         position
             .chain(root_from_tcp.quaternion_wxyz())
-            .for_each(|value| table.cell(TrajectoryCell::Number(value)));
+            .for_each(|value| table.cell(WrittenCell::Number(value)));
     }
 
     /// The largest error of all links with its link; NaN is the largest.
@@ -95,18 +94,18 @@ impl SampleCells {
         let by_size = |(_, a): &(usize, f64), (_, b): &(usize, f64)| a.abs().total_cmp(&b.abs());
         match errors.iter().map(value).enumerate().max_by(by_size) {
             Some((link, error)) => {
-                table.cell(TrajectoryCell::Number(error));
-                table.cell(TrajectoryCell::Name(&self.names.links[link]));
+                table.cell(WrittenCell::Number(error));
+                table.cell(WrittenCell::Name(&self.names.links[link]));
             }
-            None => [TrajectoryCell::Missing; 2].into_iter().for_each(|cell| table.cell(cell)),
+            None => [WrittenCell::Missing; 2].into_iter().for_each(|cell| table.cell(cell)),
         }
     }
 }
 
-fn number(name: &str) -> TrajectoryColumn {
-    TrajectoryColumn { name: name.to_owned(), kind: ColumnKind::Number }
+fn number(name: &str) -> WrittenColumn {
+    WrittenColumn { name: name.to_owned(), kind: ColumnKind::Number }
 }
 
-fn entry(values: &[f64], at: usize) -> TrajectoryCell<'static> {
-    values.get(at).map_or(TrajectoryCell::Missing, |&value| TrajectoryCell::Number(value))
+fn entry(values: &[f64], at: usize) -> WrittenCell<'static> {
+    values.get(at).map_or(WrittenCell::Missing, |&value| WrittenCell::Number(value))
 }

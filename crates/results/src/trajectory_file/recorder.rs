@@ -4,15 +4,14 @@ use std::path::Path;
 
 use congruent_monitors::{Recorder, RecordingError, Sample};
 use congruent_scenario::TrajectoryFormat;
+use congruent_tables::writer::{CsvTable, ParquetTable, TableWriter};
 use congruent_twin::Run;
 
 use super::{
     columns::{SampleCells, header},
-    csv::CsvTable,
-    parquet::ParquetTable,
+    failed::failed,
     run_log::RunLog,
     stride::Stride,
-    table::TableWriter,
 };
 use crate::{
     execute::{IfIncomplete, Recording, RecordingFormat},
@@ -48,8 +47,8 @@ impl RecordingFormat for TrajectoryFormat {
         let stride = Stride::of(setup);
         let header = header(&setup.description);
         let table: Box<dyn TableWriter> = match self {
-            Self::Csv => Box::new(CsvTable::create(path, &header)?),
-            Self::Parquet => Box::new(ParquetTable::create(path, &header)?),
+            Self::Csv => Box::new(CsvTable::create(path, &header).map_err(failed)?),
+            Self::Parquet => Box::new(ParquetTable::create(path, "trajectory", &header).map_err(failed)?),
             Self::Mcap => return Ok(Box::new(RunLog::create(path, setup, stride)?)),
         };
         let cells = SampleCells::new(&setup.description, run.names());
@@ -59,7 +58,7 @@ impl RecordingFormat for TrajectoryFormat {
 
 impl Recording for TrajectoryRecorder {
     fn finish(self: Box<Self>, _: &RunReport) -> Result<(), RecordingError> {
-        self.table.finish()
+        self.table.finish().map_err(failed)
     }
 }
 
@@ -69,6 +68,6 @@ impl Recorder for TrajectoryRecorder {
             return Ok(());
         }
         self.cells.write(sample, &mut *self.table);
-        self.table.end_row()
+        self.table.end_row().map_err(failed)
     }
 }

@@ -12,7 +12,7 @@ use congruent_monitors::{
 use congruent_twin::RunSetup;
 use congruent_writers::{RobotFormat, robot_text};
 
-use super::{stride::Stride, table::failed};
+use super::{failed::failed, stride::Stride};
 use crate::{
     execute::Recording,
     report::{RunReport, lines},

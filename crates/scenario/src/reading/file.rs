@@ -17,7 +17,7 @@ use super::{
     faults::read_fault,
     motion::read_motion,
     other_file::{refuse_folder, refuse_other_text},
-    robot_overrides::of_scenario,
+    robot_overrides::{distinct_places, of_scenario},
     section::Section,
 };
 use crate::{
@@ -91,6 +91,7 @@ impl ScenarioFile {
         let in_file = |fault: Diagnostic| fault.in_file(&source);
         let mut document = toml_text::parse_document(&source.text).map_err(in_file)?;
         let places = PlaceNode::of_document(&source.text, &document);
+        distinct_places(overrides, &document).map_err(in_file)?;
         let set: Result<Vec<Range<usize>>, Diagnostic> =
             of_scenario(overrides).map(|change| change.apply(&mut document)).collect();
         let set = set.and_then(|set| set_once(overrides).map(|()| set)).map_err(in_file)?;

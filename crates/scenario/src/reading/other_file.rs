@@ -24,13 +24,19 @@ pub(super) fn refuse_folder(path: &Path) -> Result<(), Diagnostic> {
         .with_help(help))
 }
 
-/// Refuses a page of results and a robot.
+/// Refuses a page of results, the plan of a sweep, and a robot.
 pub(super) fn refuse_other_text(path: &Path, text: &str) -> Result<(), Diagnostic> {
     let begin = text.trim_start();
     let is_page = begin.get(..9).is_some_and(|head| head.eq_ignore_ascii_case("<!doctype"));
     if is_page {
         let message = format!("{} is a web page, not a scenario", path.display());
         let help = "a page of results is for the browser; the scenario of its run is scenario.resolved.toml beside it";
+        return Err(Diagnostic::error(codes::scenario::ROBOT_GIVEN, message).with_help(help));
+    }
+    if text.lines().any(|line| line.trim_start().starts_with("[[vary]]")) {
+        let path = path.display();
+        let message = format!("{path} is the plan of a sweep, not a scenario");
+        let help = format!("to run its cases: congruent sweep run {path} --out DIR");
         return Err(Diagnostic::error(codes::scenario::ROBOT_GIVEN, message).with_help(help));
     }
     let is_robot = begin.starts_with('<') || TomlKind::from_text(text) == Some(TomlKind::RobotFile);

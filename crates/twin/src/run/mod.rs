@@ -70,6 +70,8 @@ pub struct Run<'a> {
     ends: bool,
     /// Set by whoever wants the run to end.
     interrupt: Option<&'a AtomicBool>,
+    /// Whether the simulation may be computed ahead, on a thread of its own.
+    may_compute_ahead: bool,
     /// Who answers each sample.
     observer: Option<Box<dyn RunObserver + 'a>>,
 }
@@ -143,6 +145,7 @@ impl<'a> Run<'a> {
             stopping: None,
             ends: false,
             interrupt: None,
+            may_compute_ahead: true,
             observer: None,
         })
     }
@@ -151,6 +154,13 @@ impl<'a> Run<'a> {
     #[must_use]
     pub fn interrupted_by(mut self, flag: Option<&'a AtomicBool>) -> Self {
         self.interrupt = flag;
+        self
+    }
+
+    /// The same run on the thread of the caller alone: for many runs at once, which need no second thread each.
+    #[must_use]
+    pub fn on_one_thread(mut self) -> Self {
+        self.may_compute_ahead = false;
         self
     }
 

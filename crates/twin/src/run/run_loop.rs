@@ -62,9 +62,9 @@ impl Run<'_> {
         recorder: &mut dyn Recorder,
         progress: impl FnMut(u64),
     ) -> Result<(), RunError> {
-        let may_stop = checks.iter().any(RunningCheck::may_stop);
+        let may_not = !self.may_compute_ahead || checks.iter().any(RunningCheck::may_stop);
         let links = self.root_from_links.len();
-        let ahead = if may_stop { None } else { self.source.compute_ahead(self.time_s, links) };
+        let ahead = if may_not { None } else { self.source.compute_ahead(self.time_s, links) };
         let Some((mut simulation, thread)) = ahead else { return self.go(checks, recorder, progress) };
         let interrupt = self.interrupt;
         let (result, simulation) = std::thread::scope(|scope| {

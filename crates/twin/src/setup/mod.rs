@@ -5,6 +5,7 @@ mod checks;
 mod cost;
 mod default_values;
 mod head;
+mod load;
 mod motions;
 mod output;
 mod recorded;
@@ -16,6 +17,7 @@ mod written_at;
 
 pub(crate) use actuation::ControlPeriod;
 pub use actuation::{ControllerSetup, SensorSetup, TorqueTable};
+pub use load::LoadRobot;
 pub use recorded::RecordedSetup;
 pub use run_setup::RunSetup;
 pub(crate) use surroundings::LARGEST_M;

@@ -1,19 +1,17 @@
 //! A scenario with its robot, ready to run any number of times.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use congruent_description::{Obstacle, RobotDescription, RobotQ, load_robot_set};
+use congruent_description::{Obstacle, RobotDescription, RobotQ};
 use congruent_dynamics::JointResistance;
-use congruent_input::{Capability, Diagnostic, Diagnostics, FileAccess, Findings, InputFile, Override};
+use congruent_input::{Capability, Diagnostic, Diagnostics, FileAccess, Findings, InputFile};
 use congruent_logs::SurveyedLog;
 use congruent_monitors::{
     ActuatorLimits, CheckContext, ComparedPoses, RunClock, RunDynamics, RunPayload, RunningCheck,
 };
 use congruent_motion::{Trajectory, codes::scenario::TARGET_LIMIT};
 use congruent_proximity::{MovingBody, ObstacleMobility, Zone, simplified_hulls};
-use congruent_scenario::{
-    ControllerKind, FilePlace, Scenario, ScenarioFile, ScenarioFolder, numbers, robot_overrides,
-};
+use congruent_scenario::{ControllerKind, FilePlace, Scenario, ScenarioFolder, numbers};
 
 use super::{
     actuation::{Actuation, ControllerSetup, SensorSetup},
@@ -29,7 +27,6 @@ use super::{
     written_at::WrittenAt,
 };
 use crate::{
-    codes,
     fault::{PlannedFault, resolve},
     setup::surroundings::{overlaps, zones},
 };
@@ -76,104 +73,12 @@ pub struct RunSetup {
     /// Warnings about the scenario; the robot's own warnings are in its description.
     pub warnings: Vec<Diagnostic>,
     /// Errors that matter for a simulation only: obstacles that overlap the robot at the start, and a run without an end.
-    for_simulation: Vec<Diagnostic>,
+    pub(super) for_simulation: Vec<Diagnostic>,
     /// Lines of the scenario's own checks; the default ones follow them.
     check_lines: Vec<Option<usize>>,
 }
 
 impl RunSetup {
-    /// Reads a scenario file and the robot that it names; `overrides` replace values of the file.
-    ///
-    /// # Errors
-    /// Every finding, if at least one is an error.
-    pub fn load(path: &Path, overrides: &[Override]) -> Result<Self, Findings> {
-        Self::load_with(path, overrides, &FileAccess::default())
-    }
-
-    /// The same with more files that may be opened.
-    ///
-    /// # Errors
-    /// As [`RunSetup::load`].
-    pub fn load_with(path: &Path, overrides: &[Override], access: &FileAccess) -> Result<Self, Findings> {
-        Self::load_for(path, overrides, access, None)
-    }
-
-    /// The same for a stream in place of the log of `[source]`, of which `stream` says what its first messages have.
-    ///
-    /// # Errors
-    /// As [`RunSetup::load`].
-    pub fn load_live(
-        path: &Path,
-        overrides: &[Override],
-        access: &FileAccess,
-        stream: &SurveyedLog,
-    ) -> Result<Self, Findings> {
-        Self::load_for(path, overrides, access, Some(stream))
-    }
-
-    fn load_for(
-        path: &Path,
-        overrides: &[Override],
-        access: &FileAccess,
-        stream: Option<&SurveyedLog>,
-    ) -> Result<Self, Findings> {
-        let own = access.fresh();
-        let loaded = Self::load_noting(path, overrides, &own, stream);
-        // Also after an error: files that were read before it are inputs, too.
-        access.add(&own.files());
-        loaded
-    }
-
-    /// The same; `access` notes what is read.
-    fn load_noting(
-        path: &Path,
-        overrides: &[Override],
-        access: &FileAccess,
-        stream: Option<&SurveyedLog>,
-    ) -> Result<Self, Findings> {
-        let file = ScenarioFile::read_with(path, overrides, access)?;
-        // Only now is it known which project the scenario belongs to.
-        let access = access.inside_project_of(path)?;
-        let in_file = |findings: Vec<Diagnostic>| findings.into_iter().map(|finding| file.mark(finding));
-        let robot = file.robot_path();
-        let description = match access
-            .check(&robot)
-            .map_err(Findings::from)
-            .and_then(|()| load_robot_set(&robot, &robot_overrides(overrides), &access))
-        {
-            Ok(description) => description,
-            Err(findings) => {
-                let mut findings = robot_refused(&file, findings);
-                findings.extend(file.findings().iter().cloned());
-                // Without a robot nothing else can be checked; findings of the file itself are kept.
-                return Err(findings);
-            }
-        };
-        let folder = file.folder();
-        let folder = ScenarioFolder { path: &folder, access: &access };
-        let written = WrittenAt { place: file.place(), folder, stream };
-        let built = Self::build(file.scenario.clone(), description, written);
-        let mut setup = match built {
-            Ok(setup) if file.findings().is_empty() => setup,
-            // The file has errors that the plain data does not show, such as unknown keys.
-            Ok(_) => return Err(file.findings().to_vec().into()),
-            Err(findings) => {
-                let mut all = Diagnostics::default();
-                all.extend(file.findings().iter().cloned().chain(in_file(findings.into_vec())));
-                return Err(all.into());
-            }
-        };
-        let mut warnings = Diagnostics::default();
-        warnings.extend(in_file(std::mem::take(&mut setup.warnings)));
-        setup.warnings = warnings.into_vec();
-        setup.inputs = access.files();
-        // Kept apart: another source of joint states runs in spite of them.
-        setup.for_simulation = in_file(std::mem::take(&mut setup.for_simulation)).collect();
-        setup.path = Some(path.to_owned());
-        setup.overrides = overrides.iter().map(ToString::to_string).collect();
-        Ok(setup)
-    }
-
     /// Checks a scenario that was made in code against a robot; the robot that the scenario names is not read.
     ///
     /// # Errors
@@ -208,7 +113,7 @@ impl RunSetup {
         Self::build(scenario, description, WrittenAt { place: FilePlace::nowhere(), folder, stream })
     }
 
-    fn build(
+    pub(super) fn build(
         mut scenario: Scenario,
         description: RobotDescription,
         written: WrittenAt<'_>,
@@ -375,19 +280,4 @@ impl RunSetup {
 fn beside_ranges(mut found: Diagnostics, warnings: Vec<Diagnostic>) -> Findings {
     found.extend(warnings.into_iter().filter(|warning| warning.code == TARGET_LIMIT));
     found.into()
-}
-
-/// The findings about a robot that cannot be used, at the key that names it.
-fn robot_refused(file: &ScenarioFile, mut findings: Findings) -> Findings {
-    let at_key = |found: Diagnostic| file.mark(file.place().key("robot").mark(found));
-    // A path that names nothing is one mistake, of the scenario: it needs no second finding.
-    if findings.len() == 1 && findings.first().source.is_none() {
-        return at_key(findings.into_first()).into();
-    }
-    let message = format!("robot \"{}\" cannot be used", file.scenario.robot);
-    let refused = Diagnostic::error(codes::scenario::ROBOT, message).with_help(
-        "`robot` is a folder with robot.toml, a robot file or a .urdf, relative to the scenario file",
-    );
-    findings.extend([at_key(refused)]);
-    findings
 }

@@ -20,6 +20,7 @@ use crate::{
     explain,
     failure::{BAD_INPUT, FAILED, Failure},
     input::AccessArguments,
+    sweep_plans::without_plans,
     terminal::print::{Format, Printer, text_options},
 };
 
@@ -118,11 +119,12 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     if let Some(code) = &arguments.explain {
         return explain::run(code, printer);
     }
-    let batch = Batch::begin(&arguments.files, &arguments.ci, printer)?;
+    let files = without_plans(&arguments.files, printer);
+    let batch = Batch::begin(&files, &arguments.ci, printer)?;
     let access = arguments.access.access()?;
     let linted = |path: &Path| {
         let own = access.fresh();
-        let mut report = lint_among(path, &arguments.files, &own);
+        let mut report = lint_among(path, &files, &own);
         let (mut difference, mut fixed) = (String::new(), Vec::new());
         // What was refused hides other findings, which the next round corrects.
         for _ in 0..MOST_ROUNDS {
@@ -134,7 +136,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
                 break;
             }
             fixed.append(&mut report.fixes);
-            report = lint_among(path, &arguments.files, &own);
+            report = lint_among(path, &files, &own);
         }
         fixed.append(&mut report.fixes);
         report.fixes = fixed;
@@ -142,8 +144,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         batch.reads(&read).map_err(Failure::from)?;
         Ok(Linted { report, path: path.to_owned(), strict: arguments.strict, difference })
     };
-    let files = arguments.files.iter();
-    let answers: Vec<Answer<Linted>> = files.map(|path| batch.answer(path, || linted(path))).collect();
+    let answers: Vec<Answer<Linted>> = files.iter().map(|path| batch.answer(path, || linted(path))).collect();
     if printer.format() == Format::Sarif {
         return batch.finish_as(answers, |answers| {
             let found = answers.iter().filter_map(|answer| answer.report().ok());

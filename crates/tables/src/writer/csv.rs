@@ -2,15 +2,16 @@
 
 use std::{fmt::Write, fs::File, io, path::Path};
 
-use congruent_monitors::RecordingError;
 use csv::Writer;
 
-use super::table::{TableWriter, TrajectoryCell, TrajectoryColumn, failed};
+use super::cells::{TableWriteError, TableWriter, WrittenCell, WrittenColumn, failed};
 
 /// Rows between two writes to the file: a run that is killed has written all but the last of them.
 const ROWS_A_FLUSH: u32 = 1000;
 
-pub(super) struct CsvTable {
+/// A table as comma-separated values.
+#[derive(Debug)]
+pub struct CsvTable {
     file: Writer<File>,
     text: String,
     rows: u32,
@@ -19,7 +20,11 @@ pub(super) struct CsvTable {
 }
 
 impl CsvTable {
-    pub(super) fn create(path: &Path, columns: &[TrajectoryColumn]) -> Result<Self, RecordingError> {
+    /// A new file with its header; one that is there is replaced.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub fn create(path: &Path, columns: &[WrittenColumn]) -> Result<Self, TableWriteError> {
         let mut file = Writer::from_path(path).map_err(failed)?;
         file.write_record(columns.iter().map(|column| &column.name)).map_err(failed)?;
         Ok(Self { file, text: String::new(), rows: 0, error: None })
@@ -27,19 +32,19 @@ impl CsvTable {
 }
 
 impl TableWriter for CsvTable {
-    fn cell(&mut self, cell: TrajectoryCell<'_>) {
+    fn cell(&mut self, cell: WrittenCell<'_>) {
         self.text.clear();
         let written = match cell {
-            TrajectoryCell::Count(count) => write!(self.text, "{count}"),
-            TrajectoryCell::Number(number) => write!(self.text, "{number:?}"),
-            TrajectoryCell::Name(_) | TrajectoryCell::Missing => Ok(()),
+            WrittenCell::Count(count) => write!(self.text, "{count}"),
+            WrittenCell::Number(number) => write!(self.text, "{number:?}"),
+            WrittenCell::Name(_) | WrittenCell::Missing => Ok(()),
         };
-        let text = if let TrajectoryCell::Name(name) = cell { name } else { &self.text };
+        let text = if let WrittenCell::Name(name) = cell { name } else { &self.text };
         let written = written.map_err(|error| io::Error::other(error).into());
         self.error = self.error.take().or(written.and_then(|()| self.file.write_field(text)).err());
     }
 
-    fn end_row(&mut self) -> Result<(), RecordingError> {
+    fn end_row(&mut self) -> Result<(), TableWriteError> {
         if let Some(error) = self.error.take() {
             return Err(failed(error));
         }
@@ -51,7 +56,7 @@ impl TableWriter for CsvTable {
         Ok(())
     }
 
-    fn finish(mut self: Box<Self>) -> Result<(), RecordingError> {
+    fn finish(mut self: Box<Self>) -> Result<(), TableWriteError> {
         self.file.flush().map_err(failed)
     }
 }

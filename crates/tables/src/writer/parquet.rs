@@ -3,7 +3,6 @@
 
 use std::{fs::File, path::Path, sync::Arc};
 
-use congruent_monitors::RecordingError;
 use parquet::{
     basic::{LogicalType, Repetition, Type as PhysicalType},
     data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type},
@@ -12,7 +11,7 @@ use parquet::{
     schema::types::Type,
 };
 
-use super::table::{ColumnKind, TableWriter, TrajectoryCell, TrajectoryColumn, failed};
+use super::cells::{ColumnKind, TableWriteError, TableWriter, WrittenCell, WrittenColumn, failed};
 
 /// Rows that are gathered: 5 MB for an arm with seven joints.
 const ROWS_A_GROUP: usize = 8192;
@@ -24,7 +23,8 @@ enum Gathered {
     Names { values: Vec<ByteArray>, levels: Vec<i16> },
 }
 
-pub(super) struct ParquetTable {
+/// A table as Parquet.
+pub struct ParquetTable {
     file: SerializedFileWriter<File>,
     columns: Vec<Gathered>,
     /// The column of the next cell.
@@ -33,9 +33,13 @@ pub(super) struct ParquetTable {
 }
 
 impl ParquetTable {
-    pub(super) fn create(path: &Path, columns: &[TrajectoryColumn]) -> Result<Self, RecordingError> {
+    /// A new file; `name` is that of its schema.
+    ///
+    /// # Errors
+    /// It cannot be written, or is there already.
+    pub fn create(path: &Path, name: &str, columns: &[WrittenColumn]) -> Result<Self, TableWriteError> {
         let fields: Result<Vec<_>, ParquetError> = columns.iter().map(field).collect();
-        let schema = Type::group_type_builder("trajectory").with_fields(fields.map_err(failed)?);
+        let schema = Type::group_type_builder(name).with_fields(fields.map_err(failed)?);
         // Measured numbers seldom repeat: a dictionary of them is work for nothing.
         let properties = WriterProperties::builder().set_dictionary_enabled(false).build();
         let file = File::create_new(path).map_err(failed)?;
@@ -71,7 +75,7 @@ impl ParquetTable {
 }
 
 /// The column of a schema; `OPTIONAL` columns have empty cells.
-fn field(column: &TrajectoryColumn) -> Result<Arc<Type>, ParquetError> {
+fn field(column: &WrittenColumn) -> Result<Arc<Type>, ParquetError> {
     let (physical, repetition, logical) = match column.kind {
         ColumnKind::Count => (PhysicalType::INT64, Repetition::REQUIRED, None),
         ColumnKind::Number => (PhysicalType::DOUBLE, Repetition::OPTIONAL, None),
@@ -91,20 +95,20 @@ impl Gathered {
         }
     }
 
-    fn push(&mut self, cell: TrajectoryCell<'_>) {
+    fn push(&mut self, cell: WrittenCell<'_>) {
         match (self, cell) {
-            (Self::Counts(values), TrajectoryCell::Count(count)) => {
+            (Self::Counts(values), WrittenCell::Count(count)) => {
                 values.push(i64::try_from(count).unwrap_or(i64::MAX));
             }
-            (Self::Numbers { values, levels }, TrajectoryCell::Number(number)) => {
+            (Self::Numbers { values, levels }, WrittenCell::Number(number)) => {
                 values.push(number);
                 levels.push(1);
             }
-            (Self::Names { values, levels }, TrajectoryCell::Name(name)) => {
+            (Self::Names { values, levels }, WrittenCell::Name(name)) => {
                 values.push(ByteArray::from(name));
                 levels.push(1);
             }
-            (Self::Numbers { levels, .. } | Self::Names { levels, .. }, TrajectoryCell::Missing) => {
+            (Self::Numbers { levels, .. } | Self::Names { levels, .. }, WrittenCell::Missing) => {
                 levels.push(0);
             }
             (_, cell) => panic!("{cell:?} is none of this column's kind"),
@@ -127,18 +131,18 @@ impl Gathered {
 }
 
 impl TableWriter for ParquetTable {
-    fn cell(&mut self, cell: TrajectoryCell<'_>) {
+    fn cell(&mut self, cell: WrittenCell<'_>) {
         self.columns[self.at].push(cell);
         self.at += 1;
     }
 
-    fn end_row(&mut self) -> Result<(), RecordingError> {
+    fn end_row(&mut self) -> Result<(), TableWriteError> {
         self.at = 0;
         self.rows += 1;
         if self.rows < ROWS_A_GROUP { Ok(()) } else { self.write_group().map_err(failed) }
     }
 
-    fn finish(mut self: Box<Self>) -> Result<(), RecordingError> {
+    fn finish(mut self: Box<Self>) -> Result<(), TableWriteError> {
         if self.rows > 0 {
             self.write_group().map_err(failed)?;
         }

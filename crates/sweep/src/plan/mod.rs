@@ -1,0 +1,11 @@
+//! The plan of a sweep: which values of a scenario vary, and how; from its file to the overrides of any case.
+
+mod distribution;
+mod read;
+mod varied;
+mod written;
+
+pub use distribution::Distribution;
+pub use read::{SweepCase, SweepPlan};
+pub use varied::VariedKey;
+pub use written::{WrittenPlan, sweep_plan_schema};

@@ -1,0 +1,249 @@
+//! A checked plan, and the overrides of each of its cases.
+
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+use congruent_input::{
+    Diagnostic, Diagnostics, FileAccess, Findings, Override, SourceFile, direct_path, folder_of,
+    toml_text::parse_toml,
+};
+use toml::Spanned;
+
+use super::{
+    varied::{VariedKey, key_of, varied},
+    written::WrittenPlan,
+};
+use crate::{
+    codes,
+    sampling::{CaseSampling, MOST_DIMENSIONS, PointSource},
+};
+
+/// Version of plan files.
+const SCHEMA_VERSION: u32 = 1;
+/// Largest plan file that is read.
+const MOST_BYTES: u64 = 1 << 20;
+/// Most Sobol points: an index has 32 bits.
+const MOST_SOBOL: u64 = 1 << 32;
+/// The key of the scenario's seed: a plan that varies it has no other seeds.
+const SEED: &str = "seed";
+
+/// A plan: one scenario, and the values of its cases.
+#[derive(Debug, Clone)]
+pub struct SweepPlan {
+    /// Name of the sweep.
+    pub name: String,
+    /// The plan file, as it was named.
+    pub path: PathBuf,
+    /// The scenario, from the current folder.
+    pub scenario: PathBuf,
+    /// How the values of the cases are chosen.
+    pub sampling: CaseSampling,
+    /// Number of cases.
+    pub cases: u64,
+    /// Seed of the sweep.
+    pub seed: u64,
+    /// What varies.
+    pub varied: Vec<VariedKey>,
+    /// Values that all cases have.
+    pub set: Vec<Override>,
+    points: PointSource,
+    source: Arc<SourceFile>,
+}
+
+/// One case of a plan.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SweepCase {
+    /// Its number, from 0.
+    pub case: u64,
+    /// The seed of its run.
+    pub seed: u64,
+    /// The value of each varied key, as TOML.
+    pub values: Vec<String>,
+    /// All of that as overrides of the scenario.
+    pub overrides: Vec<Override>,
+}
+
+impl SweepPlan {
+    /// Reads a plan file.
+    ///
+    /// # Errors
+    /// Every finding, if one is an error.
+    pub fn read(path: &Path, access: &FileAccess) -> Result<Self, Findings> {
+        let source = access.read_named_text(path, MOST_BYTES)?;
+        let mut found = Diagnostics::default();
+        let written: Option<WrittenPlan> = parse_toml(&source.text, &mut found);
+        let plan = written.and_then(|written| checked(&written, &source, &mut found));
+        match plan {
+            Some(plan) if !found.has_error() => {
+                access
+                    .inside_project_of(path)?
+                    .check(&plan.scenario)
+                    .map_err(|fault| fault.in_file(&source))?;
+                Ok(plan)
+            }
+            _ => Err(found.in_file(&source).into()),
+        }
+    }
+
+    /// A case of the plan: its seed and values follow from the plan and its number alone.
+    ///
+    /// # Panics
+    /// If the plan has no such case.
+    pub fn case(&self, case: u64) -> SweepCase {
+        assert!(case < self.cases, "case {case} of {}", self.cases);
+        let (seed, point) = self.points.case(case);
+        let values: Vec<String> =
+            self.varied.iter().zip(point).map(|(varied, share)| varied.distribution.value(share)).collect();
+        let mut overrides = self.set.clone();
+        for (varied, value) in self.varied.iter().zip(&values) {
+            overrides.extend(varied.keys.iter().map(|key| set(key, value)));
+        }
+        // A seed that the plan sets or varies is that of the run.
+        let given = overrides.iter().find(|change| change.path().eq([SEED])).map(Override::whole_number);
+        if given.is_none() {
+            overrides.push(Override::seed(seed));
+        }
+        SweepCase { case, seed: given.flatten().unwrap_or(seed), values, overrides }
+    }
+}
+
+impl SweepPlan {
+    /// Findings about a case, at the keys of the plan that they are about.
+    pub(crate) fn at_keys(&self, findings: Findings) -> Findings {
+        let of = |finding: &Diagnostic| {
+            let set = finding.message.strip_prefix("--set ")?.split('=').next()?;
+            self.varied.iter().find(|varied| varied.keys.iter().any(|key| is_key(key, set)))
+        };
+        let placed = |finding: Diagnostic| match of(&finding) {
+            Some(varied) => {
+                let message = finding.message.trim_start_matches("--set ").to_owned();
+                let found = Diagnostic { message, span: None, source: None, ..finding };
+                found.at(varied.place.clone()).in_file(&self.source)
+            }
+            None => finding,
+        };
+        findings.into_iter().map(placed).collect()
+    }
+}
+
+/// Whether an override of the robot or of the scenario is of this key of the plan.
+fn is_key(key: &str, set: &str) -> bool {
+    key == set || key.strip_prefix("robot.") == Some(set)
+}
+
+/// An override whose key and value were checked as the plan was read.
+fn set(key: &str, value: &str) -> Override {
+    format!("{key}={value}").parse().expect("key and value were checked with the plan")
+}
+
+fn checked(written: &WrittenPlan, source: &Arc<SourceFile>, found: &mut Diagnostics) -> Option<SweepPlan> {
+    let name = written.name.get_ref().trim().to_owned();
+    if *written.schema_version.get_ref() != SCHEMA_VERSION {
+        let message = format!("schema_version = {} is not supported", written.schema_version.get_ref());
+        let fault = Diagnostic::error(codes::sweep::VERSION, message).at(written.schema_version.span());
+        found.push(fault.with_help(format!("this program reads version {SCHEMA_VERSION}")));
+    }
+    if name.is_empty() {
+        found.push(Diagnostic::error(codes::sweep::NAME, "the name is empty").at(written.name.span()));
+    }
+    if written.vary.is_empty() {
+        let fault =
+            Diagnostic::error(codes::sweep::NOTHING_VARIES, "nothing varies: the plan has no [[vary]]");
+        found.push(
+            fault.at(0..0).with_help("[[vary]]\nkey = \"controller.stiffness\"\nuniform = [400.0, 4000.0]"),
+        );
+    }
+    let varied: Vec<VariedKey> = written
+        .vary
+        .iter()
+        .filter_map(|vary| found.keep(varied(vary, written.sampling).map_err(|fault| fault.at(vary.span()))))
+        .collect();
+    let set = found.keep(fixed(written));
+    repeated(written, found);
+    let cases = found.keep(cases(written, &varied))?;
+    let steps = varied.iter().map(|varied| varied.steps).collect();
+    let (sampling, seed) = (written.sampling, written.seed);
+    if found.has_error() {
+        return None;
+    }
+    Some(SweepPlan {
+        name,
+        path: source.path.clone(),
+        scenario: direct_path(&folder_of(&source.path).join(written.scenario.get_ref())),
+        sampling,
+        cases,
+        seed,
+        varied,
+        set: set?,
+        points: PointSource::new(sampling, seed, cases, steps),
+        source: Arc::clone(source),
+    })
+}
+
+/// The values that all cases have.
+fn fixed(written: &WrittenPlan) -> Result<Vec<Override>, Diagnostic> {
+    let mut found = Vec::new();
+    flatten("", &written.set, &mut found);
+    found.iter().map(|(key, value)| key_of(key, value)).collect()
+}
+
+/// Keys joined by dots, whether they are written in tables or as one.
+fn flatten(before: &str, table: &toml::Table, found: &mut Vec<(String, String)>) {
+    for (key, value) in table {
+        let key = format!("{before}{key}");
+        match value {
+            toml::Value::Table(table) => flatten(&format!("{key}."), table, found),
+            value => found.push((key, value.to_string())),
+        }
+    }
+}
+
+/// Refuses a key that is there twice: which of the values is meant is not known.
+fn repeated(written: &WrittenPlan, found: &mut Diagnostics) {
+    let mut set = Vec::new();
+    flatten("", &written.set, &mut set);
+    let mut known: Vec<String> = set.iter().map(|(key, _)| key.clone()).collect();
+    for vary in &written.vary {
+        for key in vary.get_ref().keys().unwrap_or_default() {
+            if known.contains(&key) {
+                let message = format!("key \"{key}\" is there twice");
+                found.push(Diagnostic::error(codes::sweep::KEY, message).at(vary.span()));
+            }
+            known.push(key);
+        }
+    }
+}
+
+fn cases(written: &WrittenPlan, varied: &[VariedKey]) -> Result<u64, Diagnostic> {
+    let fault = |message: String| Diagnostic::error(codes::sweep::CASES, message);
+    let place = written.cases.as_ref().map_or(0..0, Spanned::span);
+    let given = written.cases.as_ref().map(|cases| *cases.get_ref());
+    if written.sampling == CaseSampling::Grid {
+        let product = varied.iter().try_fold(1_u64, |product, varied| product.checked_mul(varied.steps));
+        let product =
+            product.ok_or_else(|| fault("the grid has more than 2^64 cases".to_owned()).at(0..0))?;
+        return match given {
+            Some(given) if given != product => {
+                let message = format!("cases = {given}, and the grid has {product} combinations");
+                Err(fault(message).at(place).with_help("leave cases out, or change steps and values"))
+            }
+            _ => Ok(product),
+        };
+    }
+    let Some(given) = given else {
+        let message = "the plan does not say how many cases it has".to_owned();
+        return Err(fault(message).at(place).with_help("cases = 1000"));
+    };
+    if given == 0 {
+        return Err(fault("cases = 0 is no sweep".to_owned()).at(place).with_help("cases = 1000"));
+    }
+    if written.sampling == CaseSampling::Sobol && (given > MOST_SOBOL || varied.len() > MOST_DIMENSIONS) {
+        let message = format!("{given} Sobol points of {} keys", varied.len());
+        return Err(fault(message).at(place).with_help(format!(
+            "at most {MOST_SOBOL} cases and {MOST_DIMENSIONS} keys; sampling = \"latin_hypercube\" has no such limit"
+        )));
+    }
+    Ok(given)
+}

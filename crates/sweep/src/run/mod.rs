@@ -1,0 +1,9 @@
+//! Cases of a plan, run one after another or on threads.
+
+mod case_row;
+mod runner;
+mod threads;
+
+pub use case_row::{CaseRow, CaseVerdict, WorstValue};
+pub use runner::CaseRunner;
+pub use threads::run_cases;

@@ -1,0 +1,122 @@
+//! Runs single cases in this process, without files.
+
+use std::{
+    collections::BTreeMap,
+    path::Path,
+    sync::{Arc, Mutex, atomic::AtomicBool},
+};
+
+use congruent_description::{RobotDescription, load_robot_set};
+use congruent_input::{Diagnostic, FileAccess, Findings, Override};
+use congruent_monitors::NoRecorder;
+use congruent_results::report::{Causes, RunReport, diagnose_run};
+use congruent_twin::{Run, RunSetup};
+
+use super::case_row::CaseRow;
+use crate::plan::{SweepCase, SweepPlan};
+
+/// Most robots that are kept: a plan that varies values of the robot needs another one in each case.
+const MOST_ROBOTS: usize = 16;
+
+/// Runs cases of a plan. A robot is loaded once for each set of its overrides.
+#[derive(Debug)]
+pub struct CaseRunner<'a> {
+    plan: &'a SweepPlan,
+    access: FileAccess,
+    robots: Mutex<BTreeMap<String, Arc<RobotDescription>>>,
+}
+
+impl<'a> CaseRunner<'a> {
+    /// A runner of the cases of a plan, whose scenario and robot may open these files.
+    pub fn new(plan: &'a SweepPlan, access: FileAccess) -> Self {
+        Self { plan, access, robots: Mutex::default() }
+    }
+
+    /// The plan.
+    pub fn plan(&self) -> &'a SweepPlan {
+        self.plan
+    }
+
+    /// The checked scenario of a case.
+    ///
+    /// # Errors
+    /// Every finding, if the scenario cannot be run with the values of the case.
+    pub fn setup(&self, case: &SweepCase) -> Result<RunSetup, Findings> {
+        self.setup_with(&case.overrides)
+    }
+
+    /// The scenario with these overrides.
+    ///
+    /// # Errors
+    /// As [`CaseRunner::setup`].
+    pub fn setup_with(&self, overrides: &[Override]) -> Result<RunSetup, Findings> {
+        let robot = |path: &Path, overrides: &[Override], access: &FileAccess| {
+            self.robot(path, overrides, access).map(|robot| RobotDescription::clone(&robot))
+        };
+        let setup = RunSetup::load_with_robot(&self.plan.scenario, overrides, &self.access.fresh(), &robot)?;
+        setup.for_simulation()
+    }
+
+    fn robot(
+        &self,
+        path: &Path,
+        overrides: &[Override],
+        access: &FileAccess,
+    ) -> Result<Arc<RobotDescription>, Findings> {
+        let set: Vec<String> = overrides.iter().map(ToString::to_string).collect();
+        let key = format!("{} {}", path.display(), set.join(" "));
+        if let Some(known) = self.robots().get(&key) {
+            return Ok(Arc::clone(known));
+        }
+        // Not while the others wait: two threads may load the same robot once.
+        let loaded = Arc::new(load_robot_set(path, overrides, access)?);
+        let mut robots = self.robots();
+        if robots.len() >= MOST_ROBOTS {
+            robots.clear();
+        }
+        robots.insert(key, Arc::clone(&loaded));
+        Ok(loaded)
+    }
+
+    fn robots(&self) -> std::sync::MutexGuard<'_, BTreeMap<String, Arc<RobotDescription>>> {
+        self.robots.lock().expect("no thread panics while it looks a robot up")
+    }
+
+    /// The row of a case. What cannot be run has a row that says why.
+    pub fn run(&self, case: u64, interrupt: &AtomicBool) -> Option<CaseRow> {
+        let case = self.plan.case(case);
+        let setup = match self.setup(&case) {
+            Ok(setup) => setup,
+            Err(findings) => return Some(CaseRow::refused(case, in_one_line(&findings))),
+        };
+        match report(&setup, interrupt) {
+            Ok(report) if report.error.as_deref() == Some(INTERRUPTED) => None,
+            Ok(report) => Some(CaseRow::of_run(case, &report)),
+            Err(error) => Some(CaseRow::refused(case, error)),
+        }
+    }
+}
+
+/// The error of a run that somebody has ended, which is no result.
+const INTERRUPTED: &str = "interrupted";
+
+/// Runs a checked scenario without files, on this thread.
+fn report(setup: &RunSetup, interrupt: &AtomicBool) -> Result<RunReport, String> {
+    let run = Run::new(setup).map_err(|error| error.to_string())?;
+    let mut run = run.on_one_thread().interrupted_by(Some(interrupt));
+    let sources = run.model().sources().to_vec();
+    let (outcome, result) = run.finish(&mut setup.checks(), &mut NoRecorder, |_| ());
+    let causes = Causes::from_samples(diagnose_run(&mut run, &outcome));
+    Ok(RunReport::new(setup, &sources, outcome, causes, result.as_ref().err()))
+}
+
+/// The errors among findings, without the places of files, which differ from machine to machine.
+fn in_one_line(findings: &Findings) -> String {
+    let is_error = |finding: &&Diagnostic| finding.severity == congruent_input::Severity::Error;
+    let messages: Vec<String> = findings
+        .iter()
+        .filter(is_error)
+        .map(|finding| format!("{}: {}", finding.code.name, finding.message))
+        .collect();
+    messages.join("; ")
+}

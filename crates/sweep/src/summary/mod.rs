@@ -1,0 +1,7 @@
+//! What the rows of a sweep show: verdicts, the range of each quantity, which value decides it, and the worst cases.
+
+mod importance;
+mod sweep_summary;
+
+pub use importance::{KeyImportance, importance};
+pub use sweep_summary::{MeasureSummary, SweepSummary, WorstCase};
