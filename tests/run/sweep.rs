@@ -247,3 +247,37 @@ fn the_worst_of_several_pairs_and_a_seed_that_is_set() {
         measures.iter().map(|of| of["worst"]["value"].as_f64().unwrap()).fold(f64::INFINITY, f64::min);
     assert_eq!(row["worst"]["clearance.distance_m"]["value"].as_f64(), Some(worst));
 }
+
+#[test]
+fn a_requirement_is_met_is_not_met_or_needs_more_cases() {
+    let scratch = ScratchFolder::new();
+    let vary = "[[vary]]\nkey = \"fault.wrong_payload.mass_kg\"\nuniform = [0.0, 1.0]\n";
+    for (name, body, code, words) in [
+        ("met", "cases = 60\n[require]\npassing = 0.95\n", 0, "requirement MET: at least 95.1 %"),
+        ("open", "cases = 30\n[require]\npassing = 0.95\n", 4, "some 59 cases would answer"),
+        (
+            "failed",
+            "cases = 30\n[set]\n\"check.tracking.path_tcp_mm\" = 4.9\n[require]\npassing = 0.95\n",
+            1,
+            "requirement NOT MET",
+        ),
+    ] {
+        let plan = plan(&scratch, name, &format!("{body}{vary}"));
+        let answer = sweep(&["run", &plan, "--out", &text(&scratch.path().join(name)), "--worst", "0"]);
+        assert_eq!(
+            (answer.code, answer.stdout.contains(words)),
+            (code, true),
+            "{name}: {}{}",
+            answer.stdout,
+            answer.stderr
+        );
+    }
+    let plan = plan(&scratch, "wrong", &format!("cases = 3\n[require]\npassing = 1.0\n{vary}"));
+    let refused = sweep(&["run", &plan, "--out", &text(&scratch.path().join("wrong"))]);
+    assert_eq!(
+        (refused.code, refused.stderr.contains("not between 0 and 1")),
+        (2, true),
+        "{}",
+        refused.stderr
+    );
+}

@@ -12,7 +12,7 @@ use congruent::{
         plan::SweepPlan,
         run::CaseRunner,
         store::{CASES_CSV, CASES_PARQUET, MergedTable, SweepFolder, SweepHeader, write_tables},
-        summary::SweepSummary,
+        summary::{RequirementVerdict, SweepSummary},
     },
     text::sweep_text,
 };
@@ -28,7 +28,8 @@ use crate::{
 /// page and recording.
 ///
 /// The digest that is printed is the same however the sweep was cut, and whichever machine ran which part. Exit code 1 if a case
-/// failed, 4 if none failed but some could not be run or cases are missing.
+/// failed, 4 if none failed but some could not be run or cases are missing. With [require] in the plan: 0 if it is met, 1 if not,
+/// 4 if the cases are not enough to say.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     /// The folder that `sweep run` was given as --out; several if parts have folders of their own. The tables go to the first.
@@ -98,7 +99,7 @@ pub(super) fn merge(
     printer: &Printer,
 ) -> Result<u8, Failure> {
     table.examine(runner.plan())?;
-    let mut summary = SweepSummary::new(table, arguments.worst);
+    let mut summary = SweepSummary::new(table, runner.plan().require, arguments.worst);
     write_tables(table, out).map_err(|error| {
         let message = format!("{CASES_CSV} or {CASES_PARQUET} cannot be written: {error}");
         Diagnostic::error(codes::sweep::WRITE, message)
@@ -122,6 +123,13 @@ fn first_line(text: &str) -> String {
 }
 
 fn exit_code(summary: &SweepSummary) -> u8 {
+    if let Some(requirement) = &summary.requirement {
+        return match requirement.verdict {
+            RequirementVerdict::Met => 0,
+            RequirementVerdict::NotMet => FAILED,
+            RequirementVerdict::NotEnoughCases => NOTHING,
+        };
+    }
     let count = |word: &str| summary.verdicts.get(word).copied().unwrap_or(0);
     if count("fail") + count("broken") > 0 {
         FAILED

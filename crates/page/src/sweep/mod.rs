@@ -5,7 +5,7 @@ mod lines;
 mod points;
 mod tables;
 
-use congruent_input::InputFile;
+use congruent_input::{InputFile, display::number, serde_name};
 use congruent_sweep::{run::CaseVerdict, store::MergedTable, summary::SweepSummary};
 use maud::{Markup, html};
 
@@ -39,6 +39,11 @@ fn class(verdict: CaseVerdict) -> &'static str {
     }
 }
 
+/// A share in per cent.
+fn percent(share: f64) -> String {
+    format!("{} %", number(100.0 * share))
+}
+
 fn header(summary: &SweepSummary) -> Markup {
     let of = |word: &str| summary.verdicts.get(word).copied().unwrap_or(0);
     let (passed, rows) = (of("pass"), summary.rows);
@@ -65,13 +70,22 @@ fn header(summary: &SweepSummary) -> Markup {
                 dt { "cases" }
                 dd {
                     (count(&root.key("rows"), rows)) " of " (summary.header.cases)
-                    ", sampling " (congruent_input::serde_name(&summary.header.sampling)) ", seed " (summary.header.seed)
+                    ", sampling " (serde_name(&summary.header.sampling)) ", seed " (summary.header.seed)
                 }
                 dt { "verdicts" }
                 dd {
                     @for (at, (word, cases)) in summary.verdicts.iter().enumerate() {
                         @if at > 0 { ", " }
                         (count(&root.key("verdicts").key(word), cases)) " " (word.replace('_', " "))
+                    }
+                }
+                @if let Some(requirement) = &summary.requirement {
+                    dt { "required" }
+                    dd {
+                        "at least " (percent(requirement.passing)) " of all cases pass: "
+                        b { (serde_name(&requirement.verdict).replace('_', " ")) }
+                        ", between " (percent(requirement.interval[0])) " and " (percent(requirement.interval[1]))
+                        ", each bound with confidence " (percent(requirement.confidence))
                     }
                 }
                 dt { "varied" } dd { @for (at, key) in summary.header.keys.iter().enumerate() { @if at > 0 { ", " } code { (key) } } }

@@ -2,10 +2,12 @@
 
 mod distribution;
 mod read;
+mod requirement;
 mod varied;
 mod written;
 
 pub use distribution::Distribution;
 pub use read::{SweepCase, SweepPlan};
+pub use requirement::Requirement;
 pub use varied::VariedKey;
 pub use written::{WrittenPlan, sweep_plan_schema};

@@ -12,6 +12,7 @@ use congruent_input::{
 use toml::Spanned;
 
 use super::{
+    requirement::Requirement,
     varied::{VariedKey, key_of, varied},
     written::WrittenPlan,
 };
@@ -48,6 +49,8 @@ pub struct SweepPlan {
     pub varied: Vec<VariedKey>,
     /// Values that all cases have.
     pub set: Vec<Override>,
+    /// What the rows are judged by.
+    pub require: Option<Requirement>,
     points: PointSource,
     source: Arc<SourceFile>,
 }
@@ -163,6 +166,10 @@ fn checked(written: &WrittenPlan, source: &Arc<SourceFile>, found: &mut Diagnost
     let set = found.keep(fixed(written));
     repeated(written, found);
     let cases = found.keep(cases(written, &varied))?;
+    let require = written.require.as_ref().and_then(|require| {
+        let checked = Requirement::new(*require.get_ref(), written.sampling);
+        found.keep(checked.map_err(|fault| fault.at(require.span())))
+    });
     let steps = varied.iter().map(|varied| varied.steps).collect();
     let (sampling, seed) = (written.sampling, written.seed);
     if found.has_error() {
@@ -177,6 +184,7 @@ fn checked(written: &WrittenPlan, source: &Arc<SourceFile>, found: &mut Diagnost
         seed,
         varied,
         set: set?,
+        require,
         points: PointSource::new(sampling, seed, cases, steps),
         source: Arc::clone(source),
     })

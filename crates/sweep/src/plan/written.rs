@@ -34,9 +34,27 @@ pub struct WrittenPlan {
     #[serde(default)]
     #[schemars(with = "std::collections::BTreeMap<String, serde_json::Value>")]
     pub(super) set: toml::Table,
+    /// What `sweep merge` judges.
+    #[schemars(with = "Option<WrittenRequirement>")]
+    pub(super) require: Option<Spanned<WrittenRequirement>>,
     /// What varies.
     #[schemars(with = "Vec<WrittenVary>")]
     pub(super) vary: Vec<Spanned<WrittenVary>>,
+}
+
+/// `[require]`: the share of cases that must pass, and how well that must be known.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct WrittenRequirement {
+    /// Share of all possible cases that must pass, below 1.
+    pub(super) passing: f64,
+    /// Confidence, below 1.
+    #[serde(default = "usual_confidence")]
+    pub(super) confidence: f64,
+}
+
+fn usual_confidence() -> f64 {
+    0.95
 }
 
 /// One `[[vary]]`: keys and one distribution.

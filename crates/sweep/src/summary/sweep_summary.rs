@@ -5,8 +5,12 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::importance::{KeyImportance, importance};
+use super::{
+    importance::{KeyImportance, importance},
+    requirement::RequirementResult,
+};
 use crate::{
+    plan::Requirement,
     run::{CaseRow, CaseVerdict},
     store::{MergedTable, SweepHeader, number, table_sha256, verdict_counts},
 };
@@ -29,6 +33,9 @@ pub struct SweepSummary {
     pub table_sha256: String,
     /// Number of cases with each verdict.
     pub verdicts: BTreeMap<&'static str, u64>,
+    /// The answer to `[require]` of the plan; left out if it has none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub requirement: Option<RequirementResult>,
     /// The quantities of the checks that vary, those with the smallest margin first.
     pub measures: Vec<MeasureSummary>,
     /// The cases with the smallest margins, the worst first.
@@ -80,8 +87,8 @@ pub struct WorstCase {
 }
 
 impl SweepSummary {
-    /// The summary of rows, with so many of the worst cases.
-    pub fn new(table: &MergedTable, worst: usize) -> Self {
+    /// The summary of rows, judged by the requirement of their plan, with so many of the worst cases.
+    pub fn new(table: &MergedTable, require: Option<Requirement>, worst: usize) -> Self {
         let rows = &table.rows;
         let refused = rows.iter().filter_map(|row| Some((row.case, row.error.clone()?)));
         Self {
@@ -90,6 +97,7 @@ impl SweepSummary {
             missing: table.missing_count(),
             table_sha256: table_sha256(rows),
             verdicts: verdict_counts(table),
+            requirement: require.map(|require| RequirementResult::new(require, rows)),
             measures: measures(table),
             worst: worst_cases(rows, worst),
             refused: refused.take(MOST_REFUSED).collect(),

@@ -1,0 +1,176 @@
+//! Whether a share of all possible cases passes, from those that ran: with an interval, and "not enough cases" as an answer.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use crate::{
+    plan::Requirement,
+    run::{CaseRow, CaseVerdict},
+};
+
+/// Halvings of the interval in which a bound is searched: to the digits of a double.
+const HALVINGS: u32 = 60;
+/// Most cases that are suggested.
+const MOST_CASES: u64 = 1_000_000_000;
+
+/// The answer to the requirement of a plan.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct RequirementResult {
+    /// The share of cases that must pass.
+    pub passing: f64,
+    /// The confidence with which that must be known.
+    pub confidence: f64,
+    /// Number of cases that passed, and of all with a result.
+    pub passed: u64,
+    /// Number of cases that are counted: every one with a row. A case that broke or could not be run has not passed.
+    pub counted: u64,
+    /// Bounds of the share that passes: each holds with the confidence.
+    pub interval: [f64; 2],
+    /// The answer.
+    pub verdict: RequirementVerdict,
+    /// Number of cases with which the share that was found would be known well enough; left out if it is, or if none would do.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cases_needed: Option<u64>,
+}
+
+/// Whether a requirement is met.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum RequirementVerdict {
+    /// At least the required share passes, with the confidence.
+    Met,
+    /// Less than the required share passes, with the confidence.
+    NotMet,
+    /// The cases that ran leave both possible.
+    NotEnoughCases,
+}
+
+impl RequirementResult {
+    /// The answer from the rows of a sweep.
+    pub fn new(requirement: Requirement, rows: &[CaseRow]) -> Self {
+        let Requirement { passing, confidence } = requirement;
+        let counted = rows.len() as u64;
+        let passed = rows.iter().filter(|row| row.verdict == CaseVerdict::Pass).count() as u64;
+        let interval = [lower_bound(passed, counted, confidence), upper_bound(passed, counted, confidence)];
+        let verdict = match interval {
+            [lower, _] if lower >= passing => RequirementVerdict::Met,
+            [_, upper] if upper < passing => RequirementVerdict::NotMet,
+            _ => RequirementVerdict::NotEnoughCases,
+        };
+        let is_open = verdict == RequirementVerdict::NotEnoughCases;
+        let cases_needed = is_open.then(|| needed(requirement, passed, counted)).flatten();
+        Self { passing, confidence, passed, counted, interval, verdict, cases_needed }
+    }
+}
+
+/// The share above which the share of passing cases is, with a confidence.
+///
+/// Source: Clopper & Pearson, *The use of confidence or fiducial limits illustrated in the case of the binomial*, Biometrika 26 (1934).
+fn lower_bound(passed: u64, counted: u64, confidence: f64) -> f64 {
+    if passed == 0 {
+        return 0.0;
+    }
+    // The share at which as many passes, or more, would be seen with the remaining probability alone.
+    bisected(|share| at_most(counted - passed, counted, 1.0 - share) <= 1.0 - confidence)
+}
+
+/// The share below which the share of passing cases is, with a confidence.
+fn upper_bound(passed: u64, counted: u64, confidence: f64) -> f64 {
+    if passed == counted {
+        return 1.0;
+    }
+    bisected(|share| at_most(passed, counted, share) > 1.0 - confidence)
+}
+
+/// The largest share below which a condition holds.
+fn bisected(holds: impl Fn(f64) -> bool) -> f64 {
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..HALVINGS {
+        let middle = f64::midpoint(low, high);
+        if holds(middle) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    low
+}
+
+/// Probability of at most `most` of `count` events, each with this probability.
+#[expect(clippy::cast_precision_loss, reason = "far fewer than 2^53 cases")]
+fn at_most(most: u64, count: u64, probability: f64) -> f64 {
+    if probability <= 0.0 {
+        return 1.0;
+    }
+    if probability >= 1.0 {
+        return if most >= count { 1.0 } else { 0.0 };
+    }
+    let (event, other) = (libm::log(probability), libm::log1p(-probability));
+    let choices = |of: u64| {
+        libm::lgamma(count as f64 + 1.0)
+            - libm::lgamma(of as f64 + 1.0)
+            - libm::lgamma((count - of) as f64 + 1.0)
+    };
+    (0..=most)
+        .map(|of| libm::exp(choices(of) + of as f64 * event + (count - of) as f64 * other))
+        .sum::<f64>()
+        .min(1.0)
+}
+
+/// The number of cases with which the share that was found would answer, by doubling.
+#[expect(
+    clippy::cast_precision_loss,
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "fewer than 2^53 cases"
+)]
+fn needed(requirement: Requirement, passed: u64, counted: u64) -> Option<u64> {
+    let Requirement { passing, confidence } = requirement;
+    if counted == 0 || passed == counted {
+        // Without a failure the bound is the root of the remaining probability.
+        return Some((libm::log(1.0 - confidence) / libm::log(passing)).ceil() as u64);
+    }
+    let failing = (counted - passed) as f64 / counted as f64;
+    let mut cases = counted;
+    while cases < MOST_CASES.min(counted.saturating_mul(4096)) {
+        cases *= 2;
+        let passed = cases - (failing * cases as f64).round() as u64;
+        let is_answer = lower_bound(passed, cases, confidence) >= passing
+            || upper_bound(passed, cases, confidence) < passing;
+        if is_answer {
+            return Some(cases);
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Bounds of `scipy.stats.binomtest(k, n, alternative=...).proportion_ci(0.95)` (`SciPy` 1.17.1).
+    #[test]
+    fn bounds_are_those_of_another_program() {
+        for (passed, counted, lower, upper) in [
+            (299, 299, 0.990_030_9, 1.0),
+            (248, 256, 0.944_322_3, 0.984_357_1),
+            (0, 10, 0.0, 0.258_865_6),
+            (5, 10, 0.222_441_1, 0.777_558_9),
+        ] {
+            let found = [lower_bound(passed, counted, 0.95), upper_bound(passed, counted, 0.95)];
+            assert!(
+                (found[0] - lower).abs() < 1e-7 && (found[1] - upper).abs() < 1e-7,
+                "{passed}/{counted}: {found:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn without_a_failure_299_cases_show_99_per_cent() {
+        let requirement = Requirement { passing: 0.99, confidence: 0.95 };
+        assert_eq!(needed(requirement, 100, 100), Some(299));
+        assert!(lower_bound(299, 299, 0.95) >= 0.99 && lower_bound(298, 298, 0.95) < 0.99);
+        let more = needed(requirement, 998, 1000);
+        assert!(more.is_some_and(|more| more > 1000), "{more:?}");
+    }
+}
