@@ -3,6 +3,7 @@
 use std::{path::Path, sync::Arc};
 
 use congruent_input::{FileAccess, Findings, Override, SourceFile};
+use congruent_robot::Robot;
 
 use crate::{
     description::RobotDescription,
@@ -35,8 +36,8 @@ pub fn load_robot_set(
     overrides: &[Override],
     access: &FileAccess,
 ) -> Result<RobotDescription, Findings> {
-    let is_of_model = |change: &&Override| matches!(change.path().next(), Some("link" | "joint"));
-    let (of_model, of_file): (Vec<&Override>, Vec<&Override>) = overrides.iter().partition(is_of_model);
+    let (of_model, of_file): (Vec<&Override>, Vec<&Override>) =
+        overrides.iter().partition(|change| Robot::has_value(change));
     let description = match of_file.first() {
         None => load_robot_with(path, access)?,
         Some(first) => {

@@ -10,6 +10,11 @@ const LINK_KEYS: [&str; 2] = ["mass_kg", "com_m"];
 const JOINT_KEYS: [&str; 6] = ["damping", "friction", "armature", "xyz_m", "rpy_rad", "rpy_deg"];
 
 impl Robot {
+    /// Whether a value is one of a link or joint (`link.NAME.KEY`), as [`Robot::with_value`] takes it.
+    pub fn has_value(change: &Override) -> bool {
+        matches!(change.path().next(), Some("link" | "joint"))
+    }
+
     /// The robot with one value of a link or joint replaced.
     ///
     /// | key | value | unit |

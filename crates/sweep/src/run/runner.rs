@@ -6,7 +6,7 @@ use std::{
     sync::{Arc, Mutex, atomic::AtomicBool},
 };
 
-use congruent_description::{RobotDescription, load_robot_set};
+use congruent_description::{Robot, RobotDescription, load_robot_set};
 use congruent_input::{Diagnostic, FileAccess, Findings, Override};
 use congruent_monitors::NoRecorder;
 use congruent_results::report::{Causes, RunReport, diagnose_run};
@@ -15,10 +15,10 @@ use congruent_twin::{Run, RunSetup};
 use super::case_row::CaseRow;
 use crate::plan::{SweepCase, SweepPlan};
 
-/// Most robots that are kept: a plan that varies values of the robot needs another one in each case.
+/// Most robots that are kept: a plan that varies values of the robot file needs another one in each case.
 const MOST_ROBOTS: usize = 16;
 
-/// Runs cases of a plan. A robot is loaded once for each set of its overrides.
+/// Runs cases of a plan. A robot is loaded once for each set of values of its file.
 #[derive(Debug)]
 pub struct CaseRunner<'a> {
     plan: &'a SweepPlan,
@@ -51,7 +51,13 @@ impl<'a> CaseRunner<'a> {
     /// As [`CaseRunner::setup`].
     pub fn setup_with(&self, overrides: &[Override]) -> Result<RunSetup, Findings> {
         let robot = |path: &Path, overrides: &[Override], access: &FileAccess| {
-            self.robot(path, overrides, access).map(|robot| RobotDescription::clone(&robot))
+            let (of_model, of_file): (Vec<Override>, Vec<Override>) =
+                overrides.iter().cloned().partition(Robot::has_value);
+            let loaded = self.robot(path, &of_file, access)?;
+            // Values of links and joints are set without the files, since plans vary them continuously.
+            let set = |robot: Robot, change: &Override| robot.with_value(change);
+            let robot = of_model.iter().try_fold(loaded.robot.clone(), set)?;
+            Ok(RobotDescription { robot, ..RobotDescription::clone(&loaded) })
         };
         let setup = RunSetup::load_with_robot(&self.plan.scenario, overrides, &self.access.fresh(), &robot)?;
         setup.for_simulation()
