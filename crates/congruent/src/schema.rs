@@ -21,6 +21,7 @@ use congruent_logs::LogSurvey;
 use congruent_proximity::{DisabledPairs, DistanceReport};
 use congruent_results::report::{FaultTable, RunReport};
 use congruent_scenario::Scenario;
+use congruent_tolerances::ToleranceReport;
 use schemars::{
     JsonSchema, Schema,
     generate::SchemaSettings,
@@ -104,6 +105,7 @@ impl Document {
         ),
         Self::new("workspace", "reach, printed by `workspace`", written::<WorkspaceReport>),
         Self::new("sensitivity", "sensitivities, printed by `sensitivity`", written::<SensitivityReport>),
+        Self::new("tolerances", "errors by tolerances, printed by `tolerances`", written::<ToleranceReport>),
         Self::new("clearance", "distances, printed by `clearance`", written::<DistanceReport>),
         Self::new("acm", "pairs to disable, printed by `clearance --write-srdf`", written::<DisabledPairs>),
         Self::new("calibrate", "corrections, printed by `calibrate`", written::<CalibrationReport>),

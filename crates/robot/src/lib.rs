@@ -3,6 +3,7 @@
 //! Nothing here reads a file: the readers are in crate `description`, under whose name all types are used.
 
 mod carried_body;
+mod declared_tolerances;
 mod dh_table;
 mod driven;
 mod error;
@@ -28,6 +29,9 @@ mod tree;
 mod written_names;
 
 pub use carried_body::CarriedBody;
+pub use declared_tolerances::{
+    DeclaredTolerances, ErrorDistribution, FrameTolerances, JointTolerances, ParameterTolerances,
+};
 pub use dh_table::{DhConvention, DhRow, DhRowKind, DhTable};
 pub use driven::{DrivenCoordinates, Followers};
 pub use error::RobotError;
