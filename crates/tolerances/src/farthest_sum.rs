@@ -54,10 +54,17 @@ impl CoveringDirections {
 
 /// A long sum: from a few directions the signs that make the projection largest, then along that sum, until it grows no more.
 pub(crate) fn long_sum(vectors: &[Vector3<f64>]) -> AttainedSum {
-    const STARTS: [[f64; 3]; 7] = [
+    /// Axes, edges and corners of half of a cube.
+    const STARTS: [[f64; 3]; 13] = [
         [1.0, 0.0, 0.0],
         [0.0, 1.0, 0.0],
         [0.0, 0.0, 1.0],
+        [1.0, 1.0, 0.0],
+        [1.0, -1.0, 0.0],
+        [1.0, 0.0, 1.0],
+        [1.0, 0.0, -1.0],
+        [0.0, 1.0, 1.0],
+        [0.0, 1.0, -1.0],
         [1.0, 1.0, 1.0],
         [-1.0, 1.0, 1.0],
         [1.0, -1.0, 1.0],
@@ -111,7 +118,7 @@ mod tests {
                 let longest = (0..1 << count).map(sum).fold(0.0, f64::max);
                 let (above, below) = (directions.longest_at_most(&vectors), long_sum(&vectors).length);
                 assert!(longest <= above && above <= longest * 1.002, "{longest} {above}");
-                assert!(below <= longest * (1.0 + 1e-12) && below > 0.9 * longest, "{longest} {below}");
+                assert!(below <= longest * (1.0 + 1e-12) && below > 0.97 * longest, "{longest} {below}");
             }
         }
     }

@@ -15,6 +15,8 @@ mod ranking;
 mod report;
 mod spread;
 mod study;
+#[cfg(test)]
+mod tests;
 mod worst_case;
 
 pub use first_order::FirstOrderError;
