@@ -30,7 +30,7 @@ pub use congruent_robot::{
     InertiaRounding, Joint, JointIndex, JointKind, JointLimit, JointParts, JointResistance, JointRounding,
     JointTolerances, JointValueRounding, JointValues, Link, LinkIndex, MappedJoint, Mimic, Obstacle,
     ParameterTolerances, PlacedAxis, RequestedTolerance, Robot, RobotError, RobotQ, RobotQList, SPEED_MARGIN,
-    Shape, SmallMotion, Tolerance, principal_moments,
+    Shape, SmallMotion, Tolerance, motions_of_pose, principal_moments,
 };
 pub use description::{NamedFiles, Places, RobotDescription};
 pub use load::{load_opened_robot, load_robot, load_robot_with, parse_robot};

@@ -27,6 +27,7 @@ mod set_value;
 mod tolerance;
 mod tree;
 mod written_names;
+mod written_tolerances;
 
 pub use carried_body::CarriedBody;
 pub use declared_tolerances::{
@@ -53,3 +54,4 @@ pub use robot_q_list::RobotQList;
 pub use rounding::{InertiaRounding, JointForm, JointRounding, JointValueRounding, SmallMotion};
 pub use tolerance::{RequestedTolerance, Tolerance};
 pub use written_names::WrittenNames;
+pub use written_tolerances::WrittenTolerances;

@@ -1,9 +1,11 @@
 //! From the tolerance of each parameter of an arm to the error at its tool: distribution to first order and by Monte
 //! Carlo, a worst case that holds, and which parameter to tighten.
 //!
-//! [`declared`] makes a chain with errors of tolerances, [`tolerance_study`] answers what they do.
+//! [`declared`], [`calibrated`] and [`written_digits`] make a chain with errors, [`tolerance_study`] answers what they do.
 
+mod calibrated;
 pub mod codes;
+mod digits;
 mod error_chain;
 mod farthest_sum;
 mod first_order;
@@ -19,6 +21,8 @@ mod study;
 mod tests;
 mod worst_case;
 
+pub use calibrated::calibrated;
+pub use digits::written_digits;
 pub use first_order::FirstOrderError;
 pub use monte_carlo::MonteCarloError;
 pub use parameters::{ToleratedChain, declared, no_tolerances};

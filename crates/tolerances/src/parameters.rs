@@ -3,7 +3,9 @@
 use congruent_calibration::estimation::{
     CorrectionEntry, CorrectionParameter, ParameterUnit, base_pose, dh_entries, tool_pose, zero_offsets,
 };
-use congruent_description::{DeclaredTolerances, FrameTolerances, RobotDescription, RobotQ};
+use congruent_description::{
+    DeclaredTolerances, ErrorDistribution, FrameTolerances, RobotDescription, RobotQ,
+};
 use congruent_input::Diagnostic;
 use congruent_kinematics::{DhChain, KinematicsError, Pose, ScrewChain, Twist, UrdfTree};
 
@@ -88,21 +90,27 @@ impl<'a> NominalModel<'a> {
     }
 
     /// The chain with these errors, of which those without a tolerance are dropped.
-    pub(crate) fn with_errors(
+    fn with_errors(
         self,
         mut errors: Vec<(CorrectionParameter, f64)>,
-        spread: impl FnOnce(Vec<f64>) -> ErrorSpread,
+        distribution: ErrorDistribution,
     ) -> ToleratedChain {
         errors.retain(|(_, tolerance)| *tolerance > 0.0);
-        let parameter = |(of, _): &(CorrectionParameter, f64)| ToleratedParameter {
-            name: of.name.clone(),
-            unit: of.unit(),
-        };
-        let parameters = errors.iter().map(parameter).collect();
-        let tolerances = errors.iter().map(|(_, tolerance)| *tolerance).collect();
-        let corrections = errors.into_iter().map(|(correction, _)| correction);
+        let (corrections, tolerances) = errors.into_iter().unzip();
+        self.with_spread(corrections, ErrorSpread::independent(tolerances, distribution))
+    }
+
+    /// The chain with these corrections as errors, in the order in which those of one slot act.
+    pub(crate) fn with_spread(
+        self,
+        corrections: Vec<CorrectionParameter>,
+        spread: ErrorSpread,
+    ) -> ToleratedChain {
+        let parameter =
+            |of: &CorrectionParameter| ToleratedParameter { name: of.name.clone(), unit: of.unit() };
+        let parameters = corrections.iter().map(parameter).collect();
         let chain = ErrorChain::new(self.chain, self.coordinates, corrections);
-        ToleratedChain { chain, parameters, spread: spread(tolerances) }
+        ToleratedChain { chain, parameters, spread }
     }
 }
 
@@ -143,8 +151,7 @@ pub fn declared(
     });
     errors.extend(frame_errors(tool.collect(), &tolerances.tcp));
     let is_of_table = model.dh.is_some();
-    let distribution = tolerances.distribution;
-    let chain = model.with_errors(errors, |each| ErrorSpread::independent(each, distribution));
+    let chain = model.with_errors(errors, tolerances.distribution);
     if chain.parameters.is_empty() { Err(nothing_varies(is_of_table)) } else { Ok(chain) }
 }
 

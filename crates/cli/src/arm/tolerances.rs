@@ -6,10 +6,11 @@ use congruent::{
     description::{
         DeclaredTolerances, ErrorDistribution, FrameTolerances, ParameterTolerances, RobotDescription,
     },
+    input::read_text,
     text::tolerances_text,
     tolerances::{
-        StudyOptions, ToleranceSource, ToleranceVerdict, ToleratedChain, declared, no_tolerances, plot,
-        tolerance_study,
+        StudyOptions, ToleranceSource, ToleranceVerdict, ToleratedChain, calibrated, declared, no_tolerances,
+        plot, tolerance_study, written_digits,
     },
 };
 
@@ -61,6 +62,9 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     plot: PlotArgument,
 }
+
+/// Largest report of a calibration: some hundred bytes for each measured row.
+const CALIBRATION_BYTES: u64 = 64 << 20;
 
 /// Tolerances on the command line: half widths.
 #[derive(Debug, clap::Args)]
@@ -130,9 +134,18 @@ impl Arguments {
         &self,
         description: &RobotDescription,
     ) -> Result<(ToleranceSource, ToleratedChain), Failure> {
-        match self.given.declared() {
-            Some(given) => Ok((ToleranceSource::Options, declared(description, &given)?)),
-            None => Err(no_tolerances(description).into()),
+        let given = self.given.declared();
+        if let Some(path) = &self.calibration {
+            let source = read_text(path, CALIBRATION_BYTES)?;
+            return Ok((ToleranceSource::Calibration, calibrated(description, &source)?));
+        }
+        if self.digits {
+            return Ok((ToleranceSource::Digits, written_digits(description)?));
+        }
+        match (&given, &description.tolerances) {
+            (Some(given), _) => Ok((ToleranceSource::Options, declared(description, given)?)),
+            (None, Some(file)) => Ok((ToleranceSource::RobotFile, declared(description, file)?)),
+            (None, None) => Err(no_tolerances(description).into()),
         }
     }
 }
@@ -141,7 +154,8 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let mut description = arguments.arm.load(printer)?;
     let given = arguments.configurations.is_given();
     let given = if given { Some(arguments.configurations.read(&mut description, printer)?) } else { None };
-    let inputs = files_of(&description);
+    let mut inputs = files_of(&description);
+    inputs.extend(arguments.calibration.clone());
     arguments.plot.is_none_of(&inputs)?;
     let (source, tolerated) = arguments.tolerated(&description)?;
     let options = StudyOptions {
