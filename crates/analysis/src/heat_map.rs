@@ -117,11 +117,49 @@ fn draw_cells(
         .y_label_formatter(&|at| tick(*at))
         .label_style((FONT, 13))
         .draw()?;
-    plane.draw_series(map.cells.iter().map(|HeatCell { corner: [left, low], value }| {
-        let corners = [(*left, *low), (left + map.cell_m, low + map.cell_m)];
-        Rectangle::new(corners, scale_colour(share(*value)).filled())
-    }))?;
+    plane.draw_series(level_runs(map, share).into_iter().map(
+        |LevelRun { corner: [left, low], cells, level }| {
+            let corners = [(left, low), (left + cells * map.cell_m, low + map.cell_m)];
+            Rectangle::new(corners, scale_colour(level / LEVELS).filled())
+        },
+    ))?;
     Ok(())
+}
+
+/// Steps of the scale that are drawn: neighbours of one step are one rectangle, so that the file is a third as long.
+const LEVELS: f64 = 32.0;
+
+/// Neighbours in a row with one colour.
+struct LevelRun {
+    corner: [f64; 2],
+    /// How many.
+    cells: f64,
+    /// From 0 to [`LEVELS`].
+    level: f64,
+}
+
+fn level_runs(map: &HeatMap, share: impl Fn(f64) -> f64) -> Vec<LevelRun> {
+    let mut sorted: Vec<&HeatCell> = map.cells.iter().collect();
+    let place = |cell: &HeatCell| cell.corner.map(|along| (along / map.cell_m).round());
+    sorted.sort_by(|a, b| {
+        let ([x_a, y_a], [x_b, y_b]) = (place(a), place(b));
+        y_a.total_cmp(&y_b).then(x_a.total_cmp(&x_b))
+    });
+    let mut runs: Vec<LevelRun> = Vec::new();
+    for cell in sorted {
+        let level = (share(cell.value) * LEVELS).round();
+        let [x, y] = place(cell);
+        let follows = |run: &&mut LevelRun| {
+            let [first, row] = run.corner.map(|along| (along / map.cell_m).round());
+            let is_next = (first + run.cells - x).abs() < 0.5 && (row - y).abs() < 0.5;
+            is_next && (run.level - level).abs() < 0.5
+        };
+        match runs.last_mut().filter(follows) {
+            Some(run) => run.cells += 1.0,
+            None => runs.push(LevelRun { corner: cell.corner, cells: 1.0, level }),
+        }
+    }
+    runs
 }
 
 fn draw_scale(

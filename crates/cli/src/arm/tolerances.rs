@@ -7,7 +7,7 @@ use congruent::{
         DeclaredTolerances, ErrorDistribution, FrameTolerances, ParameterTolerances, RobotDescription,
     },
     input::read_text,
-    text::tolerances_text,
+    text::{tolerances_line, tolerances_text},
     tolerances::{
         StudyOptions, ToleranceSource, ToleranceVerdict, ToleratedChain, calibrated, declared, no_tolerances,
         plot, tolerance_study, written_digits,
@@ -168,7 +168,13 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     };
     let report =
         waiting(printer, "computing errors", || tolerance_study(&description, &tolerated, &options))?;
-    printer.result(&report, |report| tolerances_text(report, &description.robot, &text_options()))?;
+    printer.result(&report, |report| {
+        if printer.is_quiet() {
+            tolerances_line(report)
+        } else {
+            tolerances_text(report, &description.robot, &text_options())
+        }
+    })?;
     arguments.plot.write(|| plot(&report, &description, &tolerated), &inputs)?;
     let exceeded = |of: &congruent::tolerances::Requirement| of.verdict == ToleranceVerdict::Exceeded;
     Ok(u8::from(report.requirement.as_ref().is_some_and(exceeded)))

@@ -19,5 +19,5 @@ pub use inverse::inverse_text;
 pub use jacobian::jacobian_text_parts;
 pub use manipulability::manipulability_text_parts;
 pub use sensitivity::sensitivity_text;
-pub use tolerances::tolerances_text;
+pub use tolerances::{tolerances_line, tolerances_text};
 pub use workspace::workspace_text;

@@ -58,6 +58,28 @@ pub fn tolerances_text(report: &ToleranceReport, robot: &Robot, options: &TextOp
     text
 }
 
+/// The answer in one line, for `--quiet`.
+pub fn tolerances_line(report: &ToleranceReport) -> String {
+    let MonteCarloError { p997_m, p997_rad, .. } = report.worst.levels.monte_carlo;
+    let word = report.requirement.map_or(String::new(), |of| format!(" {}:", verdict_word(of.verdict)));
+    format!(
+        "{}:{word} 99.7 % of all arms within {} and {} at the worst configuration; certified {} and {}\n",
+        report.robot,
+        length(p997_m),
+        angle(p997_rad),
+        length(report.worst_case.certified_m),
+        angle(report.worst_case.certified_rad)
+    )
+}
+
+fn verdict_word(verdict: ToleranceVerdict) -> &'static str {
+    match verdict {
+        ToleranceVerdict::Certified => "within tolerance, certified",
+        ToleranceVerdict::Within => "within tolerance",
+        ToleranceVerdict::Exceeded => "tolerance exceeded",
+    }
+}
+
 fn source(source: ToleranceSource) -> &'static str {
     match source {
         ToleranceSource::RobotFile => "of [tolerances] in the robot file",
@@ -82,11 +104,7 @@ fn counted_sigmas(sigmas: f64) -> String {
 
 /// Word, value, limit and margin.
 fn verdict(text: &mut String, of: &Requirement, worst_case: &WorstCase) {
-    let word = match of.verdict {
-        ToleranceVerdict::Certified => "within tolerance, certified",
-        ToleranceVerdict::Within => "within tolerance",
-        ToleranceVerdict::Exceeded => "tolerance exceeded",
-    };
+    let word = verdict_word(of.verdict);
     let _ = writeln!(text, "{word}: 99.7 % of all arms at the worst configuration");
     let mut line = |value: f64, certified: f64, limit: Option<f64>, shown: fn(f64) -> String| {
         let Some(limit) = limit else { return };
