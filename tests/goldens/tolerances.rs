@@ -67,6 +67,14 @@ fn wrong_sections_are_refused_at_their_place() {
     }
 }
 
+/// A joint of the robot that does not move has no row and no zero.
+#[test]
+fn a_row_is_of_a_joint_that_moves_the_tool() {
+    let (_folder, robot) = ur5e_with("[[tolerances.row]]\njoint = \"flange-tool0\"\na_mm = 0.01");
+    let answer = congruent(&["tolerances", &robot]);
+    assert!(answer.code == 2 && answer.stderr.contains("is no joint of the chain"), "{}", answer.stderr);
+}
+
 #[test]
 fn without_tolerances_the_refusal_says_what_to_write() {
     for (arguments, mentions) in [

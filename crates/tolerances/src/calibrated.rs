@@ -90,7 +90,7 @@ pub fn calibrated(description: &RobotDescription, source: &SourceFile) -> Result
         errors.push((correction.clone(), place(&known, correction)));
         columns.push(column);
     }
-    Ok(in_order(model, errors, &covariance.select_rows(&columns).select_columns(&columns)))
+    Ok(in_order(model, &errors, &covariance.select_rows(&columns).select_columns(&columns)))
 }
 
 /// Place of a correction in the order in which the corrections of one slot act.
@@ -101,7 +101,7 @@ fn place(known: &[CorrectionParameter], correction: &CorrectionParameter) -> usi
 /// The chain with its errors in the order in which they act.
 fn in_order(
     model: NominalModel<'_>,
-    errors: Vec<(CorrectionParameter, usize)>,
+    errors: &[(CorrectionParameter, usize)],
     covariance: &DMatrix<f64>,
 ) -> ToleratedChain {
     let mut order: Vec<usize> = (0..errors.len()).collect();

@@ -58,7 +58,7 @@ impl DigitErrors {
 
     fn finish(self, model: NominalModel<'_>) -> Result<ToleratedChain, Diagnostic> {
         if self.parameters.is_empty() {
-            let message = "the digits of the files leave nothing open, so nothing varies";
+            let message = "every value of the files is exact by its digits, so nothing varies";
             let help = "give tolerances as options, such as --a 0.05mm or --xyz 0.05mm";
             return Err(Diagnostic::error(codes::tolerances::NONE, message).with_help(help));
         }
@@ -84,7 +84,7 @@ fn in_base(motion: &SmallMotion, base_from_frame: &Pose) -> Twist {
 /// The chain with the errors that the digits of its files leave open: of the table if there is one, otherwise of the joints.
 ///
 /// # Errors
-/// No joint moves, or no value leaves anything open.
+/// No joint moves, or every value is exact by its digits.
 pub fn written_digits(description: &RobotDescription) -> Result<ToleratedChain, Diagnostic> {
     let model = NominalModel::new(description)?;
     match (&description.dh, &description.places.robot_file) {

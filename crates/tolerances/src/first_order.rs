@@ -89,7 +89,9 @@ impl ScaledColumns {
         }
         #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 configurations")]
         let count = self.at.len().max(1) as f64;
-        parts.iter_mut().for_each(|part| *part /= count);
+        for part in &mut parts {
+            *part /= count;
+        }
         parts
     }
 }

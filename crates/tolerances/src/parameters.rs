@@ -150,9 +150,8 @@ pub fn declared(
         CorrectionParameter { name, ..of }
     });
     errors.extend(frame_errors(tool.collect(), &tolerances.tcp));
-    let is_of_table = model.dh.is_some();
     let chain = model.with_errors(errors, tolerances.distribution);
-    if chain.parameters.is_empty() { Err(nothing_varies(is_of_table)) } else { Ok(chain) }
+    if chain.parameters.is_empty() { Err(nothing_varies(description)) } else { Ok(chain) }
 }
 
 /// The refusal of a robot for which no tolerance is given: with what to write.
@@ -173,9 +172,9 @@ pub fn no_tolerances(description: &RobotDescription) -> Diagnostic {
 }
 
 /// The refusal of tolerances that are of no parameter of the robot.
-fn nothing_varies(is_of_table: bool) -> Diagnostic {
+fn nothing_varies(description: &RobotDescription) -> Diagnostic {
     let message = "no tolerance is of a parameter of this robot, so nothing varies";
-    let help = if is_of_table {
+    let help = if description.dh.is_some() {
         "the robot has a table: give a, d, alpha or theta of its rows, such as --a 0.05mm --alpha 0.02deg"
     } else {
         "the robot has no table: give the origins of its joints, such as --xyz 0.05mm --rpy 0.02deg"
@@ -225,10 +224,10 @@ fn origin_errors(
     tolerances: &DeclaredTolerances,
     names: &[&str],
 ) -> Result<Vec<(CorrectionParameter, f64)>, Diagnostic> {
+    const AXES: [&str; 6] = ["roll", "pitch", "yaw", "x", "y", "z"];
     if model.dh.is_some() {
         return Ok(Vec::new());
     }
-    const AXES: [&str; 6] = ["roll", "pitch", "yaw", "x", "y", "z"];
     let mut errors = Vec::new();
     for (slot, (base_from_joint, name)) in model.base_from_joints()?.iter().zip(names).enumerate() {
         let of = tolerances.of_joint(name);

@@ -12,7 +12,7 @@ use congruent_tolerances::{
 
 use crate::{
     TextOptions,
-    layout::{Table, wrapped},
+    layout::{Table, paragraph, wrapped},
 };
 
 /// Parameters that are listed; all are in the JSON.
@@ -29,16 +29,15 @@ pub fn tolerances_text(report: &ToleranceReport, robot: &Robot, options: &TextOp
     if let Some(requirement) = &report.requirement {
         verdict(&mut text, requirement, &report.worst_case);
     }
-    let _ = writeln!(
-        text,
+    let kind = format!(
         "tolerances of {} {}, {}",
         counted(report.parameters.len(), "parameter"),
         source(report.source),
         distribution(report.sigmas)
     );
-    let given = report.configurations.chosen == ChosenBy::Given;
+    text += &paragraph(&kind, 0, 2);
     let count = report.configurations.count;
-    let place = if given {
+    let place = if report.configurations.chosen == ChosenBy::Given {
         format!("{} given", counted(count, "configuration"))
     } else {
         format!("joint range ({count} random)")
@@ -46,12 +45,15 @@ pub fn tolerances_text(report: &ToleranceReport, robot: &Robot, options: &TextOp
     let mut table =
         Table::headed(["error of the tool", "rms mm", "95 %", "99.7 %", "rms deg", "95 %", "99.7 %"]);
     levels(&mut table, &place, &report.overall);
-    levels(&mut table, "worst configuration", &report.worst.levels);
+    // The only configuration is the worst of all.
+    if count > 1 {
+        levels(&mut table, "worst configuration", &report.worst.levels);
+    }
     table.write(&mut text, options.columns);
     agreement(&mut text, &report.overall, &report.worst.levels);
-    let _ = writeln!(text, "  worst configuration");
+    text += if count > 1 { "  worst configuration\n" } else { "  configuration\n" };
     text += &wrapped(&report.worst.at.for_people(robot));
-    worst_case(&mut text, report, given);
+    worst_case(&mut text, report);
     shares(&mut text, report, options);
     halvings(&mut text, report);
     at_each(&mut text, report, options);
@@ -139,23 +141,29 @@ fn levels(table: &mut Table, place: &str, levels: &ErrorLevels) {
 fn agreement(text: &mut String, overall: &ErrorLevels, worst: &ErrorLevels) {
     let apart = overall.standard_errors_apart.max(worst.standard_errors_apart);
     let samples = overall.monte_carlo.samples;
-    let _ = if apart <= CHANCE {
-        writeln!(text, "  both methods agree: the rms within chance ({samples} draws)")
+    let words = if apart <= CHANCE {
+        format!("both methods agree: the rms within chance ({samples} draws)")
     } else {
-        writeln!(
-            text,
-            "  the rms of the two methods differ by {} standard errors ({samples} draws): errors of this size do not add up linearly, take Monte Carlo",
-            number(apart)
+        let apart = number(apart);
+        format!(
+            "the rms of the two methods differs by {apart} standard errors ({samples} draws): errors of this size do not add up linearly, take Monte Carlo"
         )
     };
+    *text += &paragraph(&words, 2, 4);
 }
 
-fn worst_case(text: &mut String, report: &ToleranceReport, given: bool) {
+fn worst_case(text: &mut String, report: &ToleranceReport) {
     let of = &report.worst_case;
-    let place = if given { "at the given configurations" } else { "over the joint range" };
+    let place = if report.configurations.chosen == ChosenBy::Given {
+        "at the given configurations"
+    } else {
+        "over the joint range"
+    };
+    let words = format!("worst case, all parameters within their tolerances at once, {place}");
+    *text += &paragraph(&words, 0, 2);
     let _ = writeln!(
         text,
-        "worst case, all parameters within their tolerances at once, {place}\n  {} is attained, {} is certified: no such arm is farther off\n  {} is attained, {} is certified",
+        "  {} is attained, {} is certified: no such arm is farther off\n  {} is attained, {} is certified",
         length(of.attained_m),
         length(of.certified_m),
         angle(of.attained_rad),
