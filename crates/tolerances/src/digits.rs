@@ -2,7 +2,8 @@
 
 use congruent_calibration::estimation::{CorrectionEntry, CorrectionParameter, ParameterUnit};
 use congruent_description::{
-    DhTable, ErrorDistribution, RobotDescription, RobotFilePlaces, RobotQ, SmallMotion, motions_of_pose,
+    DhTable, ErrorDistribution, JointIndex, RobotDescription, RobotFilePlaces, RobotQ, SmallMotion,
+    motions_of_pose,
 };
 use congruent_input::Diagnostic;
 use congruent_kinematics::{Pose, Twist, UrdfTree};
@@ -129,6 +130,22 @@ fn small(halves: [f64; 6], pose: &Isometry3<f64>) -> Vec<SmallMotion> {
     motions_of_pose(halves, pose)
 }
 
+/// All joints from base to tip, fixed ones among them: also those before the first joint that moves, if the base is above them.
+fn joints_between(description: &RobotDescription) -> Vec<JointIndex> {
+    let (robot, base) = (&description.robot, description.base);
+    let (mut link, mut joints) = (description.tip, Vec::new());
+    while let (true, Some(joint)) = (link != base, robot.parent_joint(link)) {
+        joints.push(joint);
+        link = robot.joint(joint).parent;
+    }
+    if link != base {
+        // The base is beside the chain, on the same body: its own pose on that body is taken as exact.
+        return robot.chain(base, description.tip).unwrap_or_default();
+    }
+    joints.reverse();
+    joints
+}
+
 /// Of all joints of the chain, those that are fixed among them.
 fn of_joints(model: NominalModel<'_>) -> Result<ToleratedChain, Diagnostic> {
     let robot = &model.description.robot;
@@ -137,7 +154,7 @@ fn of_joints(model: NominalModel<'_>) -> Result<ToleratedChain, Diagnostic> {
     let base_from_root = pose(model.description.base)?.inverse();
     let mut errors = DigitErrors::default();
     let mut slot = 0;
-    for index in robot.chain(model.description.base, model.description.tip).unwrap_or_default() {
+    for index in joints_between(model.description) {
         let joint = robot.joint(index);
         let base_from_parent = base_from_root * pose(joint.parent)?;
         errors.add_pose(&joint.name, &joint.rounding.origin, &base_from_parent, slot);

@@ -2,6 +2,7 @@
 
 mod certificate;
 mod closed_form;
+mod digits;
 mod independent;
 
 use congruent_description::{
