@@ -18,12 +18,12 @@ use congruent::{
         Conversion, ConversionReport, ConversionSource, ConversionTarget, DEFAULT_ACCURACY, RoundedAxes,
     },
     check,
-    description::{Robot, RobotDescription, parse_robot, parse_urdf, toml_string},
+    description::{Robot, RobotDescription, parse_robot, parse_urdf},
     kinematics::{UrdfTree, sample_configurations},
     writers::urdf_text,
 };
 use congruent_analysis::conversion::convert;
-use congruent_input::{Findings, SourceFile};
+use congruent_input::{Findings, SourceFile, toml_string};
 use proptest::{
     prelude::*,
     test_runner::{Config, RngAlgorithm, TestRng, TestRunner},
