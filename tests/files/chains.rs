@@ -35,6 +35,7 @@ fn commands(folder: &std::path::Path) -> Vec<Vec<String>> {
         with("manipulability", &[]),
         with("workspace", &samples),
         with("sensitivity", &samples),
+        with("tolerances", &["--digits".to_owned()]),
         with("calibrate", &[text(&measurements)]),
         with("convert", &["--from", "urdf", "--to", "standard"].map(str::to_owned)),
         with("convert", &["--to", "poe"].map(str::to_owned)),

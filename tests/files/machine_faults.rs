@@ -202,6 +202,7 @@ fn every_command_ends_quietly_if_no_one_reads_it() {
         &["manipulability", robot],
         &["workspace", robot],
         &["sensitivity", robot],
+        &["tolerances", robot, "--a=1mm"],
         &["clearance", robot],
         &["clearance", robot, "--write-srdf", "-"],
         &["convert", robot, "--from", "urdf", "--to", "standard"],

@@ -125,6 +125,7 @@ fn the_name_of_the_robot_file_is_the_name_in_every_report() {
         &["jacobian", &robot],
         &["manipulability", &robot],
         &["sensitivity", &robot],
+        &["tolerances", &robot, "--a=1mm"],
         &["workspace", &robot, "--samples", "10"],
         &["dynamics", &robot],
         &["ik", &robot, "--targets", &targets],

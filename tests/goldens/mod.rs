@@ -8,3 +8,4 @@ mod frames;
 mod jacobian;
 mod mjcf;
 mod robots;
+mod tolerances;

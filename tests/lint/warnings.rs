@@ -14,7 +14,7 @@ const SCENARIO: &str = "schema_version = 1\nname = \"still\"\nrobot = \"planar_2
                         [controller]\nkind = \"gravity_compensation\"\n[[check]]\nkind = \"agreement\"\n";
 
 /// Every command that reads a robot; names of files are those of the scratch folder.
-const COMMANDS: [&[&str]; 18] = [
+const COMMANDS: [&[&str]; 19] = [
     &["run", "scenario.toml", "--no-recording", "--out", "out"],
     &["run", "--faults", "scenario.toml"],
     &["check", "planar_2r"],
@@ -28,6 +28,7 @@ const COMMANDS: [&[&str]; 18] = [
     &["manipulability", "planar_2r"],
     &["workspace", "planar_2r"],
     &["sensitivity", "planar_2r"],
+    &["tolerances", "planar_2r", "--a=1mm"],
     &["calibrate", "planar_2r", "measured.csv"],
     &["convert", "planar_2r", "--from", "urdf", "--to", "standard"],
     &["dynamics", "planar_2r", "--base-parameters"],

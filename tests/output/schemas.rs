@@ -138,6 +138,8 @@ fn documents_follow_their_schemas() {
         ("manipulability", &["manipulability", "robots/panda"]),
         ("workspace", &["workspace", "robots/rrr_arm"]),
         ("sensitivity", &["sensitivity", "robots/rrr_arm"]),
+        ("tolerances", &["tolerances", "robots/rrr_arm", "--a=1mm", "--tolerance=1mm,1deg", "--random=20"]),
+        ("tolerances", &["tolerances", "robots/ur5e", "--digits", "--samples=2000", at]),
         ("clearance", &["clearance", "robots/ur5e", at]),
         ("convert", &["convert", "robots/ur5e", "--to", "modified"]),
         ("convert", &["convert", "robots/ur5e", "--from", "urdf", "--to", "standard"]),

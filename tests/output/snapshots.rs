@@ -104,7 +104,7 @@ fn help() {
 }
 
 /// Calls on files of the project: the snapshot, the command line, and what differs between machines.
-const CALLS: [(&str, &str, &[Filter]); 26] = [
+const CALLS: [(&str, &str, &[Filter]); 27] = [
     ("describe", "describe robots/rrr_arm", &[]),
     ("lint_passes", "lint docs/examples/arm robots/ur5e", &[]),
     ("lint_explain", "explain CGR-URDF-018", &[]),
@@ -116,6 +116,11 @@ const CALLS: [(&str, &str, &[Filter]); 26] = [
     ("manipulability", "manipulability robots/ur5e --at elbow_joint=1.2rad --at wrist_2_joint=0.5rad", &[]),
     ("workspace", "workspace robots/planar_2r --samples 20000", &[CONFIGURATION]),
     ("sensitivity", "sensitivity robots/spatial_3r", &[CONFIGURATION]),
+    (
+        "tolerances",
+        "tolerances robots/spatial_3r --a 0.05mm --d 0.05mm --alpha 0.02deg --theta 0.02deg --at joint_2=60deg --tolerance 1mm",
+        &[],
+    ),
     ("clearance", "clearance robots/ur5e --at elbow_joint=1.2rad", &[]),
     ("disabled_pairs", "clearance robots/ur5e --samples 1000 --write-srdf -", &[]),
     ("convert_dh", "convert robots/ur5e --from urdf --to modified", &[NO_RESIDUAL]),

@@ -139,6 +139,8 @@ fn on_a_terminal_every_command_fits_its_columns() {
         "dynamics robots/panda",
         "manipulability robots/planar_2r",
         "sensitivity robots/ur5e",
+        "tolerances robots/ur5e --a 1mm --alpha 1deg --normal 3",
+        "tolerances robots/ur5e/ur5e.urdf --rpy 5deg --tolerance 1mm",
         "clearance robots/panda",
         "workspace robots/planar_2r",
         "describe robots/panda",

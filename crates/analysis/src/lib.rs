@@ -9,6 +9,7 @@ pub mod conversion;
 pub mod description_summary;
 pub mod dynamics;
 pub mod forward;
+pub mod heat_map;
 pub mod inverse;
 pub mod jacobians;
 mod largest_value;

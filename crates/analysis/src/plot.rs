@@ -26,11 +26,11 @@ const COLOURS: [RGBColor; 4] =
 pub(crate) const PLANES: [[usize; 2]; 3] = [[0, 1], [0, 2], [1, 2]];
 /// Names of the axes.
 pub(crate) const AXES: [&str; 3] = ["x in m", "y in m", "z in m"];
-const GREY: RGBColor = RGBColor(90, 90, 90);
-const FONT: &str = "sans-serif";
-const TITLE_PX: u32 = 44;
+pub(crate) const GREY: RGBColor = RGBColor(90, 90, 90);
+pub(crate) const FONT: &str = "sans-serif";
+pub(crate) const TITLE_PX: u32 = 44;
 
-type PlotArea<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+pub(crate) type PlotArea<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
 /// One bar: its length, and a mark within it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -302,7 +302,7 @@ fn draw_view(area: &PlotArea<'_>, view: &PlaneView, radius: f64) -> Result<(), P
 }
 
 /// A tick of an axis in metres; steps of the axis add up to nearly 0, which must not read -0.0.
-fn tick(value: f64) -> String {
+pub(crate) fn tick(value: f64) -> String {
     number((value * 1e9).round() / 1e9 + 0.0)
 }
 
@@ -324,7 +324,12 @@ fn span(view: &PlaneView) -> ([f64; 2], f64) {
     ([0, 1].map(|axis| f64::midpoint(lower[axis], upper[axis])), half)
 }
 
-fn page<'a>(svg: &'a mut String, width: u32, height: u32, title: &str) -> Result<PlotArea<'a>, PlotError> {
+pub(crate) fn page<'a>(
+    svg: &'a mut String,
+    width: u32,
+    height: u32,
+    title: &str,
+) -> Result<PlotArea<'a>, PlotError> {
     let root = SVGBackend::with_string(svg, (width, height)).into_drawing_area();
     root.fill(&WHITE)?;
     let style = (FONT, 18).into_font().color(&BLACK);
@@ -333,11 +338,11 @@ fn page<'a>(svg: &'a mut String, width: u32, height: u32, title: &str) -> Result
 }
 
 /// Height of a line below the chart.
-fn note_px(words: &str) -> u32 {
+pub(crate) fn note_px(words: &str) -> u32 {
     if words.is_empty() { 0 } else { 24 }
 }
 
-fn note(root: &PlotArea<'_>, words: &str) -> Result<(), PlotError> {
+pub(crate) fn note(root: &PlotArea<'_>, words: &str) -> Result<(), PlotError> {
     let bottom = i32::try_from(root.dim_in_pixel().1).unwrap_or(i32::MAX);
     if words.is_empty() { Ok(()) } else { text(root, words, 16, bottom - 14, HPos::Left) }
 }
@@ -352,7 +357,7 @@ fn legend(root: &PlotArea<'_>, series: &[String]) -> Result<(), PlotError> {
     Ok(())
 }
 
-fn text(root: &PlotArea<'_>, words: &str, x: i32, y: i32, side: HPos) -> Result<(), PlotError> {
+pub(crate) fn text(root: &PlotArea<'_>, words: &str, x: i32, y: i32, side: HPos) -> Result<(), PlotError> {
     let style = TextStyle::from((FONT, 13).into_font()).color(&BLACK).pos(Pos::new(side, VPos::Center));
     root.draw(&Text::new(words.to_owned(), (x, y), style))?;
     Ok(())

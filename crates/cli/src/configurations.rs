@@ -39,6 +39,11 @@ pub(crate) struct ConfigurationArguments {
 }
 
 impl ConfigurationArguments {
+    /// Whether a configuration is given.
+    pub(crate) fn is_given(&self) -> bool {
+        self.configurations.is_some() || !self.at.is_empty()
+    }
+
     /// The configuration vectors: those of the file, or the one of `--at`, or zero. Values outside the limits
     /// are warnings of the description.
     pub(crate) fn read(

@@ -15,14 +15,24 @@ const GROUPS: [(&str, &[&str]); 6] = [
     ("Look", &["view", "inspect", "compare"]),
     (
         "Compute",
-        &["fk", "ik", "jacobian", "dynamics", "clearance", "workspace", "manipulability", "sensitivity"],
+        &[
+            "fk",
+            "ik",
+            "jacobian",
+            "dynamics",
+            "clearance",
+            "workspace",
+            "manipulability",
+            "sensitivity",
+            "tolerances",
+        ],
     ),
     ("Model", &["convert", "calibrate", "identify", "plan"]),
     ("Shell", &["schema", "completions", "man", "help"]),
 ];
 
 /// Two examples or more of each command, by its name, in the root of the project.
-const EXAMPLES: [(&str, &[&str]); 27] = [
+const EXAMPLES: [(&str, &[&str]); 28] = [
     (
         "check",
         &[
@@ -143,6 +153,14 @@ const EXAMPLES: [(&str, &[&str]); 27] = [
     (
         "sensitivity",
         &["congruent sensitivity robots/ur5e", "congruent sensitivity robots/ur5e --plot sensitivity.svg"],
+    ),
+    (
+        "tolerances",
+        &[
+            "congruent tolerances robots/ur5e --a 0.05mm --d 0.05mm --alpha 0.02deg --theta 0.02deg",
+            "congruent tolerances robots/ur5e --digits --tolerance 1mm",
+            "congruent tolerances robots/ur5e/ur5e.urdf --xyz 0.05mm --rpy 0.02deg --normal 3 --plot error.svg",
+        ],
     ),
     (
         "convert",

@@ -130,6 +130,11 @@ pub(crate) fn length_with_unit(text: &str) -> Result<f64, String> {
     }
 }
 
+/// An angle above 0, with its unit.
+pub(crate) fn angle_with_unit(text: &str) -> Result<f64, String> {
+    QuantityArgument::positive(text, Dimension::Angle)
+}
+
 /// Three lengths, `0.4,0.1,0.3` in m or `400mm,0.1m,300mm`.
 pub(crate) fn three_lengths(text: &str) -> Result<[f64; 3], String> {
     three(text, Dimension::Length, "0.4,0.1,0.3 or 400mm,100mm,300mm")

@@ -60,6 +60,7 @@ pub fn all_codes() -> Vec<&'static Code> {
     codes.extend(congruent_replay::codes::ALL);
     codes.extend(congruent_sweep::codes::ALL);
     codes.extend(congruent_starter::codes::ALL);
+    codes.extend(congruent_tolerances::codes::ALL);
     codes.extend(ALL);
     codes
 }

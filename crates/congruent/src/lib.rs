@@ -33,6 +33,7 @@ pub use congruent_simulation as simulation;
 pub use congruent_starter as starter;
 pub use congruent_sweep as sweep;
 pub use congruent_tables as tables;
+pub use congruent_tolerances as tolerances;
 pub use congruent_twin as twin;
 pub use congruent_writers as writers;
 pub use nalgebra;

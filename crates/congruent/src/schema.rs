@@ -22,6 +22,7 @@ use congruent_proximity::{DisabledPairs, DistanceReport};
 use congruent_results::report::{FaultTable, RunReport};
 use congruent_scenario::Scenario;
 use congruent_sweep::{plan::sweep_plan_schema, store::SweepProgress, summary::SweepSummary};
+use congruent_tolerances::ToleranceReport;
 use schemars::{
     JsonSchema, Schema,
     generate::SchemaSettings,
@@ -108,6 +109,7 @@ impl Document {
         ),
         Self::new("workspace", "reach, printed by `workspace`", written::<WorkspaceReport>),
         Self::new("sensitivity", "sensitivities, printed by `sensitivity`", written::<SensitivityReport>),
+        Self::new("tolerances", "errors by tolerances, printed by `tolerances`", written::<ToleranceReport>),
         Self::new("clearance", "distances, printed by `clearance`", written::<DistanceReport>),
         Self::new("acm", "pairs to disable, printed by `clearance --write-srdf`", written::<DisabledPairs>),
         Self::new("calibrate", "corrections, printed by `calibrate`", written::<CalibrationReport>),

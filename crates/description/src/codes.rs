@@ -140,6 +140,8 @@ congruent_input::codes! {
             "An offset of [mapping.joints] has the wrong unit for its joint, is given twice, or is no position of a joint. `q_there = sign * q_here + offset`.\n    elbow = { joint = \"joint3\", sign = -1, offset_deg = 90 }";
         TOLERANCE = "CGR-ROBOT-016", "robot_file::tolerance",
             "A tolerance must be greater than 0. With a tolerance of 0, rounding alone would be a disagreement.\n    wrong: position_m = 0.0\n    right: position_m = 1e-12";
+        TOLERANCES = "CGR-ROBOT-032", "robot_file::tolerances",
+            "A value of [tolerances] is not above 0, or a row names a joint that the robot does not have. A tolerance is a half width: the parameter is within so much of its value, to both sides. Leave out what is exact.\n    wrong: a_mm = -0.05\n    right: a_mm = 0.05";
         OWN_MODEL = "CGR-ROBOT-028", "robot_file::own_model",
             "A robot file without a URDF is a robot by itself: either a table ([dh]) or screws ([poe]). It cannot have both, nor keys that are about links, shapes and masses of a URDF; and a robot file with a URDF cannot have [poe]. Put the second model into a file of its own.\n    congruent check table.toml --against screws.toml";
         RANGE = "CGR-ROBOT-029", "robot_file::range",

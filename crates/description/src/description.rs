@@ -7,7 +7,9 @@ use std::{
 };
 
 use congruent_input::{Capability, Diagnostic, Findings, InputFile, display::first_of, known_names};
-use congruent_robot::{DhTable, JointIndex, LinkIndex, RequestedTolerance, Robot, Tolerance, WrittenNames};
+use congruent_robot::{
+    DeclaredTolerances, DhTable, JointIndex, LinkIndex, RequestedTolerance, Robot, Tolerance, WrittenNames,
+};
 use nalgebra::Isometry3;
 
 use crate::{
@@ -106,6 +108,8 @@ pub struct RobotDescription {
     pub declared_tolerance: RequestedTolerance,
     /// How joints are called and counted in another description, if the robot file declares it.
     pub mapping: Option<DeclaredMapping>,
+    /// By how much each parameter may be off; `None` if the file does not say.
+    pub tolerances: Option<DeclaredTolerances>,
     /// The other descriptions of this robot that the robot file names.
     pub references: Vec<DeclaredReference>,
     /// The other files and folders that the robot file names.
@@ -142,6 +146,7 @@ impl RobotDescription {
             tolerance: Tolerance::default(),
             declared_tolerance: RequestedTolerance::default(),
             mapping: None,
+            tolerances: None,
             references: Vec::new(),
             named_files: NamedFiles::default(),
             disabled_collisions: BTreeSet::new(),

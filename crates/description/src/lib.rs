@@ -25,11 +25,12 @@ pub use changed::{ChangedRobots, robots_of_changed};
 pub use congruent_meshes::{HullPoints, Mesh, read_mesh};
 pub use congruent_mjcf::codes::mjcf::LOOP as MJCF_LOOP;
 pub use congruent_robot::{
-    ArmQ, CarriedBody, ChainQ, DhConvention, DhRow, DhRowKind, DhTable, DrivenCoordinates, Extent, Followers,
-    Geometry, Inertia, InertiaRounding, Joint, JointIndex, JointKind, JointLimit, JointParts,
-    JointResistance, JointRounding, JointValueRounding, JointValues, Link, LinkIndex, MappedJoint, Mimic,
-    Obstacle, PlacedAxis, RequestedTolerance, Robot, RobotError, RobotQ, RobotQList, SPEED_MARGIN, Shape,
-    SmallMotion, Tolerance, principal_moments,
+    ArmQ, CarriedBody, ChainQ, DeclaredTolerances, DhConvention, DhRow, DhRowKind, DhTable,
+    DrivenCoordinates, ErrorDistribution, Extent, Followers, FrameTolerances, Geometry, Inertia,
+    InertiaRounding, Joint, JointIndex, JointKind, JointLimit, JointParts, JointResistance, JointRounding,
+    JointTolerances, JointValueRounding, JointValues, Link, LinkIndex, MappedJoint, Mimic, Obstacle,
+    ParameterTolerances, PlacedAxis, RequestedTolerance, Robot, RobotError, RobotQ, RobotQList, SPEED_MARGIN,
+    Shape, SmallMotion, Tolerance, motions_of_pose, principal_moments,
 };
 pub use description::{NamedFiles, Places, RobotDescription};
 pub use load::{load_opened_robot, load_robot, load_robot_with, parse_robot};

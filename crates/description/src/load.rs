@@ -267,6 +267,7 @@ fn declared(
         tip_from_tcp: declared.tip_from_tcp,
         tolerance: declared.tolerance,
         declared_tolerance: declared.tolerance_parts,
+        tolerances: declared.tolerances,
         mapping: declared.mapping,
         references: declared.references.into_iter().map(in_folder).collect(),
         named_files: NamedFiles::default(),

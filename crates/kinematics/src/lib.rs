@@ -24,7 +24,7 @@ mod support;
 pub use arm::{
     Arm, ArmJoint, Dexterity, DifferentialMethod, Displacement, IkChange, IkMethod, IkOptions, IkResult,
     IkSolver, IkTarget, Manipulability, Sampling, TargetPart, VelocityEllipsoid, Workspace, WorkspaceSize,
-    displacement,
+    displacement, maximize,
 };
 pub use chain::{
     Axes, AxisPair, AxisRelation, Choice, DeriveError, DhChain, DhDerivation, DhDerivatives, DhFrames,

@@ -3,6 +3,7 @@
 //! Nothing here reads a file: the readers are in crate `description`, under whose name all types are used.
 
 mod carried_body;
+mod declared_tolerances;
 mod dh_table;
 mod driven;
 mod error;
@@ -26,8 +27,12 @@ mod set_value;
 mod tolerance;
 mod tree;
 mod written_names;
+mod written_tolerances;
 
 pub use carried_body::CarriedBody;
+pub use declared_tolerances::{
+    DeclaredTolerances, ErrorDistribution, FrameTolerances, JointTolerances, ParameterTolerances,
+};
 pub use dh_table::{DhConvention, DhRow, DhRowKind, DhTable};
 pub use driven::{DrivenCoordinates, Followers};
 pub use error::RobotError;
@@ -49,3 +54,4 @@ pub use robot_q_list::RobotQList;
 pub use rounding::{InertiaRounding, JointForm, JointRounding, JointValueRounding, SmallMotion};
 pub use tolerance::{RequestedTolerance, Tolerance};
 pub use written_names::WrittenNames;
+pub use written_tolerances::WrittenTolerances;

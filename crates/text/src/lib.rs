@@ -27,7 +27,8 @@ mod watch;
 
 pub use arm::{
     clearance_text_parts, disabled_pairs_text, forward_text_parts, inverse_text, jacobian_text_parts,
-    joint_dynamics_text_parts, manipulability_text_parts, sensitivity_text, workspace_text,
+    joint_dynamics_text_parts, manipulability_text_parts, sensitivity_text, tolerances_line, tolerances_text,
+    workspace_text,
 };
 pub use base_parameters::base_parameters_text;
 pub use calibrated_robot::{calibrated_robot_comments, camera_text, same_point_robot_comments};

@@ -9,4 +9,5 @@ pub(crate) mod ik;
 pub(crate) mod jacobian;
 pub(crate) mod manipulability;
 pub(crate) mod sensitivity;
+pub(crate) mod tolerances;
 pub(crate) mod workspace;

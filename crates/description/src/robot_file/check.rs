@@ -3,7 +3,9 @@
 use std::ops::Range;
 
 use congruent_input::{Diagnostic, Diagnostics, WrittenTransform, known_names, units::Unit};
-use congruent_robot::{DhConvention, DhTable, JointIndex, LinkIndex, RequestedTolerance, Robot, Tolerance};
+use congruent_robot::{
+    DeclaredTolerances, DhConvention, DhTable, JointIndex, LinkIndex, RequestedTolerance, Robot, Tolerance,
+};
 use nalgebra::Isometry3;
 use toml::Spanned;
 
@@ -33,6 +35,7 @@ pub(crate) struct Declared {
     pub(crate) tolerance: Tolerance,
     /// The parts of the tolerance that the file has.
     pub(crate) tolerance_parts: RequestedTolerance,
+    pub(crate) tolerances: Option<DeclaredTolerances>,
     pub(crate) mapping: Option<DeclaredMapping>,
     pub(crate) references: Vec<DeclaredReference>,
 }
@@ -46,6 +49,10 @@ pub(crate) fn check(
 ) -> Option<Declared> {
     let tolerance_parts = tolerance(written.tolerance.as_ref(), diagnostics);
     let tolerance = tolerance_parts.or(Tolerance::default());
+    let joints: Vec<&str> = robot.joints().iter().map(|joint| joint.name.as_str()).collect();
+    let tolerances =
+        written.tolerances.as_ref().map(|of| of.declared(&joints, codes::robot_file::TOLERANCES));
+    let tolerances = tolerances.and_then(|of| diagnostics.keep(of));
     let accelerations = limits::accelerations(written.limits.as_ref(), robot, diagnostics);
     let tcp = written.tcp.as_ref().map(Spanned::get_ref);
     let tip_from_tcp = tcp.and_then(|tcp| diagnostics.keep(tcp.isometry()));
@@ -85,6 +92,7 @@ pub(crate) fn check(
         tip_from_tcp,
         tolerance,
         tolerance_parts,
+        tolerances,
         mapping: declared,
         references,
     })

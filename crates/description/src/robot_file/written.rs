@@ -4,7 +4,7 @@
 use std::{collections::BTreeMap, ops::Range, path::PathBuf, sync::Arc};
 
 use congruent_input::{Diagnostic, SourceFile, WrittenTransform, fixed_array, units::WrittenUnit};
-use congruent_robot::{DhConvention, DhRowKind};
+use congruent_robot::{DhConvention, DhRowKind, WrittenTolerances};
 use schemars::{JsonSchema, Schema, schema_for};
 use serde::Deserialize;
 use toml::Spanned;
@@ -97,6 +97,10 @@ pub struct WrittenRobot {
     #[serde(default)]
     #[schemars(with = "WrittenTolerance")]
     pub(crate) tolerance: Option<WrittenTolerance>,
+    /// By how much each parameter may be off, for `congruent tolerances`.
+    #[serde(default)]
+    #[schemars(with = "WrittenTolerances")]
+    pub(crate) tolerances: Option<WrittenTolerances>,
     /// How joints are called and counted in the description that `check --against` names.
     #[serde(default)]
     #[schemars(with = "WrittenMapping")]

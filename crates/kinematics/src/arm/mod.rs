@@ -12,6 +12,7 @@ mod workspace_size;
 pub use ik::{DifferentialMethod, IkChange, IkMethod, IkOptions, IkResult, IkSolver, IkTarget, TargetPart};
 pub use manipulability::{Dexterity, Manipulability, VelocityEllipsoid};
 pub use model::{Arm, ArmJoint};
+pub use pattern_search::maximize;
 pub use sensitivity::{Displacement, Sampling, displacement};
 pub use workspace::Workspace;
 pub use workspace_size::WorkspaceSize;

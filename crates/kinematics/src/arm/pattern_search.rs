@@ -15,7 +15,7 @@ const MOST_SWEEPS: usize = 400;
 /// configuration, and the result its value.
 ///
 /// Source: Hooke & Jeeves, *Direct Search* (1961), without the pattern moves.
-pub(crate) fn maximize(joints: &[ArmJoint], q: &mut ArmQ, mut value: impl FnMut(&ArmQ) -> f64) -> f64 {
+pub fn maximize(joints: &[ArmJoint], q: &mut ArmQ, mut value: impl FnMut(&ArmQ) -> f64) -> f64 {
     let mut best = value(q);
     let mut share = FIRST_SHARE;
     for _ in 0..MOST_SWEEPS {

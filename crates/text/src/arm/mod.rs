@@ -8,6 +8,7 @@ mod inverse;
 mod jacobian;
 mod manipulability;
 mod sensitivity;
+mod tolerances;
 mod workspace;
 
 pub use clearance::clearance_text_parts;
@@ -18,4 +19,5 @@ pub use inverse::inverse_text;
 pub use jacobian::jacobian_text_parts;
 pub use manipulability::manipulability_text_parts;
 pub use sensitivity::sensitivity_text;
+pub use tolerances::{tolerances_line, tolerances_text};
 pub use workspace::workspace_text;
