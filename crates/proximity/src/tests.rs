@@ -51,6 +51,7 @@ fn description() -> RobotDescription {
         tip_from_tcp: None,
         declared_tolerance: congruent_description::RequestedTolerance::default(),
         mapping: None,
+        tolerances: None,
         references: Vec::new(),
         tolerance: congruent_description::Tolerance::default(),
         named_files: congruent_description::NamedFiles::default(),

@@ -99,6 +99,14 @@ mod tests {
 
     use super::*;
 
+    /// Length of the sum of vectors, each with the sign that its bit says.
+    fn signed_sum(vectors: &[Vector3<f64>], signs: usize) -> f64 {
+        let signed = |(at, vector): (usize, &Vector3<f64>)| {
+            if signs >> at & 1 == 0 { *vector } else { -vector }
+        };
+        vectors.iter().enumerate().map(signed).sum::<Vector3<f64>>().norm()
+    }
+
     /// All sums of a few vectors are enumerated: the longest is between both ends, and the bound is tight.
     #[test]
     fn the_longest_of_all_sums_is_between() {
@@ -108,14 +116,10 @@ mod tests {
             for flat in [1.0, 0.0] {
                 let mut vector = || Vector3::from_fn(|_, _| random.between(-1.0, 1.0));
                 let mut vectors: Vec<Vector3<f64>> = (0..count).map(|_| vector()).collect();
-                vectors.iter_mut().for_each(|vector| vector.z *= flat);
-                let sum = |signs: usize| {
-                    let signed = |(at, vector): (usize, &Vector3<f64>)| {
-                        if signs >> at & 1 == 0 { *vector } else { -vector }
-                    };
-                    vectors.iter().enumerate().map(signed).sum::<Vector3<f64>>().norm()
-                };
-                let longest = (0..1 << count).map(sum).fold(0.0, f64::max);
+                for vector in &mut vectors {
+                    vector.z *= flat;
+                }
+                let longest = (0..1 << count).map(|signs| signed_sum(&vectors, signs)).fold(0.0, f64::max);
                 let (above, below) = (directions.longest_at_most(&vectors), long_sum(&vectors).length);
                 assert!(longest <= above && above <= longest * 1.002, "{longest} {above}");
                 assert!(below <= longest * (1.0 + 1e-12) && below > 0.97 * longest, "{longest} {below}");

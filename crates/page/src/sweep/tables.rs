@@ -1,7 +1,7 @@
 //! The tables of a sweep's page: which value matters, the worst cases, those that could not be run.
 
 use congruent_input::display::number;
-use congruent_sweep::summary::{KeyImportance, SweepSummary, WorstCase};
+use congruent_sweep::summary::{KeyImportance, SmallestMargin, SweepSummary};
 use maud::{Markup, html};
 
 use super::class;
@@ -60,7 +60,7 @@ fn short(value: &str) -> String {
 
 /// The worst cases, each with its page.
 pub(super) fn worst(summary: &SweepSummary) -> Markup {
-    let row = |worst: &WorstCase, place: &Pointer| {
+    let row = |worst: &SmallestMargin, place: &Pointer| {
         html! {
             tr {
                 td { @if let Some(page) = &worst.page { a href=(page) { "case " (worst.case) } } @else { "case " (worst.case) } }

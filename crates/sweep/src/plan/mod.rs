@@ -8,6 +8,6 @@ mod written;
 
 pub use distribution::Distribution;
 pub use read::{SweepCase, SweepPlan};
-pub use requirement::Requirement;
+pub use requirement::PassingShare;
 pub use varied::VariedKey;
 pub use written::{WrittenPlan, sweep_plan_schema};

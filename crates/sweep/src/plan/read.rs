@@ -12,7 +12,7 @@ use congruent_input::{
 use toml::Spanned;
 
 use super::{
-    requirement::Requirement,
+    requirement::PassingShare,
     varied::{VariedKey, key_of, varied},
     written::WrittenPlan,
 };
@@ -50,7 +50,7 @@ pub struct SweepPlan {
     /// Values that all cases have.
     pub set: Vec<Override>,
     /// What the rows are judged by.
-    pub require: Option<Requirement>,
+    pub require: Option<PassingShare>,
     points: PointSource,
     source: Arc<SourceFile>,
 }
@@ -167,7 +167,7 @@ fn checked(written: &WrittenPlan, source: &Arc<SourceFile>, found: &mut Diagnost
     repeated(written, found);
     let cases = found.keep(cases(written, &varied))?;
     let require = written.require.as_ref().and_then(|require| {
-        let checked = Requirement::new(*require.get_ref(), written.sampling);
+        let checked = PassingShare::new(*require.get_ref(), written.sampling);
         found.keep(checked.map_err(|fault| fault.at(require.span())))
     });
     let steps = varied.iter().map(|varied| varied.steps).collect();

@@ -7,14 +7,14 @@ use crate::{codes, sampling::CaseSampling};
 
 /// A share of all possible cases that must pass, and the confidence with which that must be known.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Requirement {
+pub struct PassingShare {
     /// The share, between 0 and 1.
     pub passing: f64,
     /// The confidence, between 0 and 1.
     pub confidence: f64,
 }
 
-impl Requirement {
+impl PassingShare {
     pub(super) fn new(written: WrittenRequirement, sampling: CaseSampling) -> Result<Self, Diagnostic> {
         let fault = |message: String| Diagnostic::error(codes::sweep::REQUIREMENT, message);
         let WrittenRequirement { passing, confidence } = written;

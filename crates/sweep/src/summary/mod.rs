@@ -6,4 +6,4 @@ mod sweep_summary;
 
 pub use importance::{KeyImportance, importance};
 pub use requirement::{RequirementResult, RequirementVerdict};
-pub use sweep_summary::{MeasureSummary, SweepSummary, WorstCase};
+pub use sweep_summary::{MeasureSummary, SmallestMargin, SweepSummary};

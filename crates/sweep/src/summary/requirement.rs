@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::{
-    plan::Requirement,
+    plan::PassingShare,
     run::{CaseRow, CaseVerdict},
 };
 
@@ -47,8 +47,8 @@ pub enum RequirementVerdict {
 
 impl RequirementResult {
     /// The answer from the rows of a sweep.
-    pub fn new(requirement: Requirement, rows: &[CaseRow]) -> Self {
-        let Requirement { passing, confidence } = requirement;
+    pub fn new(requirement: PassingShare, rows: &[CaseRow]) -> Self {
+        let PassingShare { passing, confidence } = requirement;
         let counted = rows.len() as u64;
         let passed = rows.iter().filter(|row| row.verdict == CaseVerdict::Pass).count() as u64;
         let interval = [lower_bound(passed, counted, confidence), upper_bound(passed, counted, confidence)];
@@ -124,8 +124,8 @@ fn at_most(most: u64, count: u64, probability: f64) -> f64 {
     clippy::cast_sign_loss,
     reason = "fewer than 2^53 cases"
 )]
-fn needed(requirement: Requirement, passed: u64, counted: u64) -> Option<u64> {
-    let Requirement { passing, confidence } = requirement;
+fn needed(requirement: PassingShare, passed: u64, counted: u64) -> Option<u64> {
+    let PassingShare { passing, confidence } = requirement;
     if counted == 0 || passed == counted {
         // Without a failure the bound is the root of the remaining probability.
         return Some((libm::log(1.0 - confidence) / libm::log(passing)).ceil() as u64);
@@ -167,7 +167,7 @@ mod tests {
 
     #[test]
     fn without_a_failure_299_cases_show_99_per_cent() {
-        let requirement = Requirement { passing: 0.99, confidence: 0.95 };
+        let requirement = PassingShare { passing: 0.99, confidence: 0.95 };
         assert_eq!(needed(requirement, 100, 100), Some(299));
         assert!(lower_bound(299, 299, 0.95) >= 0.99 && lower_bound(298, 298, 0.95) < 0.99);
         let more = needed(requirement, 998, 1000);

@@ -10,7 +10,7 @@ use super::{
     requirement::RequirementResult,
 };
 use crate::{
-    plan::Requirement,
+    plan::PassingShare,
     run::{CaseRow, CaseVerdict},
     store::{MergedTable, SweepHeader, number, table_sha256, verdict_counts},
 };
@@ -39,7 +39,7 @@ pub struct SweepSummary {
     /// The quantities of the checks that vary, those with the smallest margin first.
     pub measures: Vec<MeasureSummary>,
     /// The cases with the smallest margins, the worst first.
-    pub worst: Vec<WorstCase>,
+    pub worst: Vec<SmallestMargin>,
     /// The first cases that could not be run, with the reason.
     pub refused: BTreeMap<u64, String>,
 }
@@ -63,7 +63,7 @@ pub struct MeasureSummary {
 
 /// A case with a small margin.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct WorstCase {
+pub struct SmallestMargin {
     /// Its number.
     pub case: u64,
     /// Its values, in the order of the keys, as TOML.
@@ -88,7 +88,7 @@ pub struct WorstCase {
 
 impl SweepSummary {
     /// The summary of rows, judged by the requirement of their plan, with so many of the worst cases.
-    pub fn new(table: &MergedTable, require: Option<Requirement>, worst: usize) -> Self {
+    pub fn new(table: &MergedTable, require: Option<PassingShare>, worst: usize) -> Self {
         let rows = &table.rows;
         let refused = rows.iter().filter_map(|row| Some((row.case, row.error.clone()?)));
         Self {
@@ -105,14 +105,14 @@ impl SweepSummary {
     }
 }
 
-fn worst_cases(rows: &[CaseRow], count: usize) -> Vec<WorstCase> {
-    let mut worst: Vec<WorstCase> = rows
+fn worst_cases(rows: &[CaseRow], count: usize) -> Vec<SmallestMargin> {
+    let mut worst: Vec<SmallestMargin> = rows
         .iter()
         .filter(|row| row.verdict != CaseVerdict::Broken)
         .filter_map(|row| {
             let (quantity, margin_share) = row.least_margin()?;
             let of = row.worst.get(quantity)?;
-            Some(WorstCase {
+            Some(SmallestMargin {
                 case: row.case,
                 values: row.values.clone(),
                 verdict: row.verdict,
