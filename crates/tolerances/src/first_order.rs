@@ -3,6 +3,7 @@
 
 use congruent_description::{RobotQ, RobotQList};
 use congruent_kinematics::Twist;
+use nalgebra::Matrix3;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -111,24 +112,24 @@ pub(crate) fn columns_at(tolerated: &ToleratedChain, q: &RobotQ, motions: &mut E
     columns
 }
 
-/// Root mean square of the distance at a configuration, m; in buffers of its own.
+/// Covariances of the position and of the orientation at a configuration; in buffers of its own.
 #[derive(Debug)]
-pub(crate) struct PositionRms<'a> {
+pub(crate) struct ErrorCovariances<'a> {
     tolerated: &'a ToleratedChain,
     motions: ErrorMotions,
     columns: Vec<Twist>,
 }
 
-impl<'a> PositionRms<'a> {
+impl<'a> ErrorCovariances<'a> {
     pub(crate) fn new(tolerated: &'a ToleratedChain) -> Self {
         Self { tolerated, motions: ErrorMotions::default(), columns: Vec::new() }
     }
 
-    /// Root mean square of the distance, m.
-    pub(crate) fn at_m(&mut self, q: &RobotQ) -> f64 {
+    /// Of the position, m^2, and of the orientation, rad^2.
+    pub(crate) fn at(&mut self, q: &RobotQ) -> [Matrix3<f64>; 2] {
         self.tolerated.chain.motions_into(q, &mut self.motions);
         self.motions.columns_into(&self.tolerated.spread.deviations, &mut self.columns);
-        self.tolerated.spread.covariances(&self.columns)[0].trace().sqrt()
+        self.tolerated.spread.covariances(&self.columns)
     }
 
     /// The tool without errors, in the base, at the configuration of the last call.

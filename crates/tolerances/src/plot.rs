@@ -11,7 +11,7 @@ use congruent_input::display::length;
 use congruent_kinematics::Arm;
 
 use crate::{
-    first_order::PositionRms, parameters::ToleratedChain, report::ToleranceReport,
+    first_order::ErrorCovariances, parameters::ToleratedChain, report::ToleranceReport,
     study::random_configurations,
 };
 
@@ -37,11 +37,12 @@ pub fn plot(
     tolerated: &ToleratedChain,
 ) -> Result<String, PlotError> {
     let Ok(arm) = Arm::from_description(description) else { return heat_map(&figure(report, &[])) };
-    let mut rms = PositionRms::new(tolerated);
+    let mut covariances = ErrorCovariances::new(tolerated);
     let drawn = random_configurations(description, &arm, CONFIGURATIONS, report.seed);
     let of = |q| {
-        let rms_m = rms.at_m(&q);
-        let tcp = rms.tcp_in_base();
+        let [position, _] = covariances.at(&q);
+        let rms_m = position.trace().sqrt();
+        let tcp = covariances.tcp_in_base();
         [libm::hypot(tcp.x, tcp.y), tcp.z, rms_m]
     };
     heat_map(&figure(report, &drawn.iter().map(of).collect::<Vec<_>>()))

@@ -9,14 +9,14 @@ use congruent_kinematics::{Arm, ArmJoint, Twist, Uniform, maximize, range};
 use crate::{
     error_chain::ErrorMotions,
     farthest_sum::CoveringDirections,
-    first_order::{PositionRms, ScaledColumns},
+    first_order::{ErrorCovariances, ScaledColumns},
     monte_carlo::{Draws, monte_carlo},
-    norm_quantile::NormDistribution,
+    norm_quantile::{NormDistribution, PrincipalVariances},
     parameters::{ToleratedChain, refused},
     ranking::tightening_order,
     report::{
         ChosenBy, ConfigurationError, ConfigurationsOfStudy, ErrorLevels, Requirement, ToleranceReport,
-        ToleranceSource, WorstCase, WorstConfiguration,
+        ToleranceSource, WorstCase, WorstConfiguration, largest_p997,
     },
     worst_case::{AttainedError, CertifiedError, WorstErrors, certified_at, certified_over},
 };
@@ -98,7 +98,7 @@ pub fn tolerance_study(
     let columns = ScaledColumns::new(tolerated, &studied.configurations);
     let draws = Draws { samples: options.samples, seed: options.seed };
     let overall = levels(&studied, &columns, &norm, draws);
-    let worst = studied.worst(&norm, draws);
+    let [worst, worst_orientation] = [0, 1].map(|part| studied.worst(part, &norm, draws));
     let directions = CoveringDirections::new();
     let (worst_case, errors) = studied.worst_case(&directions);
     let at = studied.at_each(&columns, &norm, &directions);
@@ -106,7 +106,7 @@ pub fn tolerance_study(
     let order = tightening_order(tolerated, &columns, &norm, &errors, overall.first_order.p95_m);
     let RequestedTolerance { position_m, orientation_rad } = options.required;
     let is_required = position_m.is_some() || orientation_rad.is_some();
-    let found = &worst.levels.monte_carlo;
+    let found = largest_p997([&overall, &worst.levels, &worst_orientation.levels]);
     let requirement =
         is_required.then(|| Requirement::judge(position_m, orientation_rad, found, &worst_case));
     let chosen = if studied.is_random { ChosenBy::Random } else { ChosenBy::Given };
@@ -119,6 +119,7 @@ pub fn tolerance_study(
         seed: options.seed,
         overall,
         worst,
+        worst_orientation,
         worst_case,
         parameters: order.parameters,
         halvings: order.halvings,
@@ -209,10 +210,11 @@ impl StudiedArm<'_> {
         best.map_or_else(|| RobotQ::zeros(self.description.robot.dof()), |(_, q)| q)
     }
 
-    /// The error where its root mean square is largest.
-    fn worst(&self, norm: &NormDistribution, draws: Draws) -> WorstConfiguration {
-        let mut rms = PositionRms::new(self.tolerated);
-        let q = self.largest(|q| rms.at_m(q));
+    /// The error where the 99.7 % quantile of the distance (part 0) or of the angle (part 1) is largest, to first order: the root
+    /// mean square of the angle is the same at all configurations if the tolerances of all axes are.
+    fn worst(&self, part: usize, norm: &NormDistribution, draws: Draws) -> WorstConfiguration {
+        let mut covariances = ErrorCovariances::new(self.tolerated);
+        let q = self.largest(|q| norm.quantile(&[PrincipalVariances::new(&covariances.at(q)[part])], 0.997));
         let alone = RobotQList::from(&q);
         let columns = ScaledColumns::new(self.tolerated, &alone);
         // Another seed than over all configurations: the two are then independent.

@@ -49,13 +49,13 @@ pub(crate) struct Arguments {
     /// Number of random configurations, if none are given.
     #[arg(long, default_value_t = 500, value_parser = clap::value_parser!(u32).range(1..=20_000))]
     random: u32,
-    /// Number of draws of all errors, over all configurations and at the worst one.
+    /// Number of draws of all errors, over all configurations and at the worst ones.
     #[arg(long, default_value_t = 100_000, value_parser = clap::value_parser!(u32).range(1_000..=20_000_000))]
     samples: u32,
     /// Seed of the draws and of the random configurations.
     #[arg(long, default_value_t = 0, value_parser = seed)]
     seed: u64,
-    /// The error that is allowed: exit code 1 if the 99.7 % quantile at the worst configuration exceeds it.
+    /// The error that is allowed: exit code 1 if the 99.7 % quantile exceeds it, over the joint range or where it is worst.
     #[arg(long, value_name = "LENGTH,ANGLE")]
     tolerance: Option<ToleranceArgument>,
     // The error over the plane of height and distance from the base's axis.

@@ -7,7 +7,7 @@ use congruent_description::Robot;
 use congruent_input::display::{angle, counted, length, number};
 use congruent_tolerances::{
     ChosenBy, ErrorLevels, FirstOrderError, MonteCarloError, ParameterShare, Requirement, ToleranceReport,
-    ToleranceSource, ToleranceVerdict, WorstCase,
+    ToleranceSource, ToleranceVerdict,
 };
 
 use crate::{
@@ -27,7 +27,7 @@ const CHANCE: f64 = 3.0;
 pub fn tolerances_text(report: &ToleranceReport, robot: &Robot, options: &TextOptions) -> String {
     let mut text = format!("{}: {}\n", report.robot, report.chain);
     if let Some(requirement) = &report.requirement {
-        verdict(&mut text, requirement, &report.worst_case);
+        verdict(&mut text, requirement, report);
     }
     let kind = format!(
         "tolerances of {} {}, {}",
@@ -48,11 +48,17 @@ pub fn tolerances_text(report: &ToleranceReport, robot: &Robot, options: &TextOp
     // The only configuration is the worst of all.
     if count > 1 {
         levels(&mut table, "worst configuration", &report.worst.levels);
+        levels(&mut table, "worst for the angle", &report.worst_orientation.levels);
     }
     table.write(&mut text, options.columns);
-    agreement(&mut text, &report.overall, &report.worst.levels);
+    let worst = [&report.worst, &report.worst_orientation];
+    agreement(&mut text, [&report.overall, &worst[0].levels, &worst[1].levels]);
     text += if count > 1 { "  worst configuration\n" } else { "  configuration\n" };
     text += &wrapped(&report.worst.at.for_people(robot));
+    if count > 1 {
+        text += "  worst for the angle\n";
+        text += &wrapped(&report.worst_orientation.at.for_people(robot));
+    }
     worst_case(&mut text, report);
     shares(&mut text, report, options);
     halvings(&mut text, report);
@@ -62,10 +68,10 @@ pub fn tolerances_text(report: &ToleranceReport, robot: &Robot, options: &TextOp
 
 /// The answer in one line, for `--quiet`.
 pub fn tolerances_line(report: &ToleranceReport) -> String {
-    let MonteCarloError { p997_m, p997_rad, .. } = report.worst.levels.monte_carlo;
+    let [p997_m, p997_rad] = report.largest_p997();
     let word = report.requirement.map_or(String::new(), |of| format!(" {}:", verdict_word(of.verdict)));
     format!(
-        "{}:{word} 99.7 % of all arms within {} and {} at the worst configuration; certified {} and {}\n",
+        "{}:{word} 99.7 % of all arms within {} and {}; certified {} and {}\n",
         report.robot,
         length(p997_m),
         angle(p997_rad),
@@ -105,9 +111,13 @@ fn counted_sigmas(sigmas: f64) -> String {
 }
 
 /// Word, value, limit and margin.
-fn verdict(text: &mut String, of: &Requirement, worst_case: &WorstCase) {
-    let word = verdict_word(of.verdict);
-    let _ = writeln!(text, "{word}: 99.7 % of all arms at the worst configuration");
+fn verdict(text: &mut String, of: &Requirement, report: &ToleranceReport) {
+    let (word, worst_case) = (verdict_word(of.verdict), &report.worst_case);
+    let place = match report.configurations.chosen {
+        ChosenBy::Given => "at the given configurations",
+        ChosenBy::Random => "over the joint range and at its worst configurations",
+    };
+    let _ = writeln!(text, "{word}: 99.7 % of all arms {place}");
     let mut line = |value: f64, certified: f64, limit: Option<f64>, shown: fn(f64) -> String| {
         let Some(limit) = limit else { return };
         let (margin, room) = (limit - value, if value <= limit { "margin" } else { "too large by" });
@@ -138,9 +148,9 @@ fn levels(table: &mut Table, place: &str, levels: &ErrorLevels) {
 }
 
 /// Whether linearisation is good enough.
-fn agreement(text: &mut String, overall: &ErrorLevels, worst: &ErrorLevels) {
-    let apart = overall.standard_errors_apart.max(worst.standard_errors_apart);
-    let samples = overall.monte_carlo.samples;
+fn agreement(text: &mut String, levels: [&ErrorLevels; 3]) {
+    let apart = levels.iter().map(|of| of.standard_errors_apart).fold(0.0, f64::max);
+    let samples = levels[0].monte_carlo.samples;
     let words = if apart <= CHANCE {
         format!("both methods agree: the rms within chance ({samples} draws)")
     } else {
