@@ -4,7 +4,7 @@ use std::{fs, path::Path, time::SystemTime};
 
 use crate::support::{
     command::{congruent, text},
-    corpus::workspace,
+    scenario_files::scenario_files,
     scratch_folder::ScratchFolder,
 };
 
@@ -164,9 +164,7 @@ fn all_scenarios_of_the_project_are_kept() {
     let out = text(out.path());
     let mut arguments: Vec<String> =
         ["run", "--no-recording", "--resume", "--out", &out].map(str::to_owned).to_vec();
-    let files = fs::read_dir(workspace().join("scenarios")).unwrap().flatten().map(|entry| entry.path());
-    let files: Vec<_> =
-        files.filter(|path| path.extension().is_some_and(|extension| extension == "toml")).collect();
+    let files = scenario_files("scenarios");
     arguments.extend(files.iter().map(|path| text(path)));
     let first = congruent(&arguments);
     let second = congruent(&arguments);

@@ -6,26 +6,17 @@ use std::{fs, path::Path};
 
 use crate::support::{
     command::{allowing, text},
-    corpus::workspace,
+    scenario_files::scenario_files,
 };
 
 /// Lets the C library take a processor to be without these. What the program itself chooses by the processor, the width of
 /// vectors, gives the same bits by tests of its own.
 const OLD_PROCESSOR: &str = "glibc.cpu.hwcaps=-AVX512F,-AVX2,-AVX,-FMA,-FMA4,-AVX2_Usable,-AVX_Usable,-FMA_Usable,-SSE4_1,-SSE4_2,-ERMS";
 
-fn scenarios(folder: &str) -> Vec<String> {
-    let files = fs::read_dir(workspace().join(folder)).unwrap().flatten().map(|entry| entry.path());
-    let mut files: Vec<String> = files
-        .filter(|path| path.extension().is_some_and(|extension| extension == "toml"))
-        .map(|path| text(&path))
-        .collect();
-    files.sort();
-    files
-}
-
 /// The reports of all scenarios by their folder.
 fn reports(out: &Path, processor: Option<&str>) -> Vec<(String, String)> {
-    let scenarios: Vec<String> = ["scenarios", "scenarios/faults"].into_iter().flat_map(scenarios).collect();
+    let files = ["scenarios", "scenarios/faults"].into_iter().flat_map(scenario_files);
+    let scenarios: Vec<String> = files.map(|path| text(&path)).collect();
     let out_text = text(out);
     let arguments: Vec<&str> = ["run", "--no-recording", "--out", &out_text]
         .into_iter()

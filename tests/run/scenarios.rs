@@ -8,6 +8,7 @@ use crate::support::{
     command::{Answer, congruent, congruent_json, text},
     corpus::workspace,
     golden::read_json,
+    scenario_files::scenario_files,
 };
 
 /// Runs one scenario without a recording and gives its report.
@@ -220,7 +221,7 @@ fn values_that_cannot_be_set_are_refused_with_the_reason() {
     for (values, reason) in [
         (&["check.99.position_m=1"][..], "\"check\" has entries 1 to"),
         (&["controller.stiffness.x=1"], "\"stiffness\" is a value, not a table"),
-        (&["seed=1", "seed=2"], "the key is set twice, first by seed=1"),
+        (&["seed=1", "seed=2"], "the same value is set by seed=1"),
         (&["controller.stifness=1"], "did you mean \"stiffness\"?"),
     ] {
         let answer = run_set(&out, values);
@@ -247,17 +248,14 @@ fn every_resolved_scenario_runs_again_with_the_same_hash() {
         (report["trajectory_sha256"].clone(), resolved)
     };
     let mut compared = 0;
-    for entry in fs::read_dir(workspace().join("scenarios")).unwrap() {
-        let path = entry.unwrap().path();
-        if path.extension().is_some_and(|extension| extension == "toml") {
-            let (hash, resolved) = run(&text(&path), &out.path().join("first"));
-            let (hash_again, resolved_again) = run(&text(&resolved), &out.path().join("again"));
-            assert!(hash.is_string());
-            assert_eq!(hash, hash_again, "{}", path.display());
-            let [first, again] = [resolved, resolved_again].map(|path| fs::read_to_string(path).unwrap());
-            assert_eq!(first, again, "{}", path.display());
-            compared += 1;
-        }
+    for path in scenario_files("scenarios") {
+        let (hash, resolved) = run(&text(&path), &out.path().join("first"));
+        let (hash_again, resolved_again) = run(&text(&resolved), &out.path().join("again"));
+        assert!(hash.is_string());
+        assert_eq!(hash, hash_again, "{}", path.display());
+        let [first, again] = [resolved, resolved_again].map(|path| fs::read_to_string(path).unwrap());
+        assert_eq!(first, again, "{}", path.display());
+        compared += 1;
     }
     assert!(compared >= 13, "{compared} scenarios");
 }

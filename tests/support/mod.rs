@@ -7,6 +7,7 @@ pub(crate) mod golden;
 pub(crate) mod live;
 pub(crate) mod measurements;
 pub(crate) mod published_table;
+pub(crate) mod scenario_files;
 pub(crate) mod scratch_folder;
 pub(crate) mod special_inputs;
 pub(crate) mod suggested_changes;
