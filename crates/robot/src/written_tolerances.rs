@@ -9,118 +9,153 @@ use crate::declared_tolerances::{
     DeclaredTolerances, ErrorDistribution, FrameTolerances, JointTolerances, ParameterTolerances,
 };
 
-/// By how much each parameter of the robot may be off, above 0: half widths. What is not written is exact. Each quantity has one of its
-/// two keys: SI units or engineering units.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "ParameterTolerances")]
-pub struct WrittenTolerances {
-    /// How each error is distributed: "uniform" within its tolerance, which is the default, or "normal".
-    #[serde(default)]
-    kind: DistributionKind,
-    /// Standard deviations of a tolerance, if errors are normal; 3 by default.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    sigmas: Option<Spanned<f64>>,
-    /// Tolerance of link length a of a row, in metres.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    a_m: Option<Spanned<f64>>,
-    /// Tolerance of link length a of a row, in millimetres.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    a_mm: Option<Spanned<f64>>,
-    /// Tolerance of link offset d of a row, in metres.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    d_m: Option<Spanned<f64>>,
-    /// Tolerance of link offset d of a row, in millimetres.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    d_mm: Option<Spanned<f64>>,
-    /// Tolerance of link twist alpha of a row, in radians.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    alpha_rad: Option<Spanned<f64>>,
-    /// Tolerance of link twist alpha of a row, in degrees.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    alpha_deg: Option<Spanned<f64>>,
-    /// Tolerance of joint angle theta of a row, in radians.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    theta_rad: Option<Spanned<f64>>,
-    /// Tolerance of joint angle theta of a row, in degrees.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    theta_deg: Option<Spanned<f64>>,
-    /// Tolerance of zero of a joint that slides, in metres.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    zero_m: Option<Spanned<f64>>,
-    /// Tolerance of zero of a joint that slides, in millimetres.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    zero_mm: Option<Spanned<f64>>,
-    /// Tolerance of zero of a joint that turns: encoder and backlash, in radians.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    zero_rad: Option<Spanned<f64>>,
-    /// Tolerance of zero of a joint that turns: encoder and backlash, in degrees.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    zero_deg: Option<Spanned<f64>>,
-    /// Tolerance of each coordinate of a joint's origin, of a robot without a table, in metres.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    xyz_m: Option<Spanned<f64>>,
-    /// Tolerance of each coordinate of a joint's origin, of a robot without a table, in millimetres.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    xyz_mm: Option<Spanned<f64>>,
-    /// Tolerance of each of three turns about the axes of a joint's frame, of a robot without a table, in radians.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    rpy_rad: Option<Spanned<f64>>,
-    /// Tolerance of each of three turns about the axes of a joint's frame, of a robot without a table, in degrees.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    rpy_deg: Option<Spanned<f64>>,
-    /// Tolerance of each coordinate of the base, in metres.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    base_m: Option<Spanned<f64>>,
-    /// Tolerance of each coordinate of the base, in millimetres.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    base_mm: Option<Spanned<f64>>,
-    /// Tolerance of each turn of the base about its axes, in radians.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    base_rad: Option<Spanned<f64>>,
-    /// Tolerance of each turn of the base about its axes, in degrees.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    base_deg: Option<Spanned<f64>>,
-    /// Tolerance of each coordinate of the tool centre point in the last link, in metres.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    tcp_m: Option<Spanned<f64>>,
-    /// Tolerance of each coordinate of the tool centre point in the last link, in millimetres.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    tcp_mm: Option<Spanned<f64>>,
-    /// Tolerance of each turn of the tool centre point about its axes, in radians.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    tcp_rad: Option<Spanned<f64>>,
-    /// Tolerance of each turn of the tool centre point about its axes, in degrees.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    tcp_deg: Option<Spanned<f64>>,
-    /// Other tolerances of single joints and their rows.
-    #[serde(default)]
-    row: Vec<WrittenJointTolerances>,
+/// A section with a tolerance of each quantity of [`ParameterTolerances`], between other keys. Not a struct that is flattened into both:
+/// serde then loses the places of the values.
+macro_rules! tolerance_section {
+    (
+        $(#[$meta:meta])*
+        $visibility:vis struct $name:ident { $($before:tt)* } followed_by { $($behind:tt)* }
+    ) => {
+        #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+        #[serde(deny_unknown_fields)]
+        $(#[$meta])*
+        $visibility struct $name {
+            $($before)*
+            /// Tolerance of link length a of a row, in metres.
+            #[serde(default)]
+            #[schemars(with = "f64")]
+            a_m: Option<Spanned<f64>>,
+            /// Tolerance of link length a of a row, in millimetres.
+            #[serde(default)]
+            #[schemars(with = "f64")]
+            a_mm: Option<Spanned<f64>>,
+            /// Tolerance of link offset d of a row, in metres.
+            #[serde(default)]
+            #[schemars(with = "f64")]
+            d_m: Option<Spanned<f64>>,
+            /// Tolerance of link offset d of a row, in millimetres.
+            #[serde(default)]
+            #[schemars(with = "f64")]
+            d_mm: Option<Spanned<f64>>,
+            /// Tolerance of link twist alpha of a row, in radians.
+            #[serde(default)]
+            #[schemars(with = "f64")]
+            alpha_rad: Option<Spanned<f64>>,
+            /// Tolerance of link twist alpha of a row, in degrees.
+            #[serde(default)]
+            #[schemars(with = "f64")]
+            alpha_deg: Option<Spanned<f64>>,
+            /// Tolerance of joint angle theta of a row, in radians.
+            #[serde(default)]
+            #[schemars(with = "f64")]
+            theta_rad: Option<Spanned<f64>>,
+            /// Tolerance of joint angle theta of a row, in degrees.
+            #[serde(default)]
+            #[schemars(with = "f64")]
+            theta_deg: Option<Spanned<f64>>,
+            /// Tolerance of zero of a joint that slides, in metres.
+            #[serde(default)]
+            #[schemars(with = "f64")]
+            zero_m: Option<Spanned<f64>>,
+            /// Tolerance of zero of a joint that slides, in millimetres.
+            #[serde(default)]
+            #[schemars(with = "f64")]
+            zero_mm: Option<Spanned<f64>>,
+            /// Tolerance of zero of a joint that turns: encoder and backlash, in radians.
+            #[serde(default)]
+            #[schemars(with = "f64")]
+            zero_rad: Option<Spanned<f64>>,
+            /// Tolerance of zero of a joint that turns: encoder and backlash, in degrees.
+            #[serde(default)]
+            #[schemars(with = "f64")]
+            zero_deg: Option<Spanned<f64>>,
+            /// Tolerance of each coordinate of a joint's origin, of a robot without a table, in metres.
+            #[serde(default)]
+            #[schemars(with = "f64")]
+            xyz_m: Option<Spanned<f64>>,
+            /// Tolerance of each coordinate of a joint's origin, of a robot without a table, in millimetres.
+            #[serde(default)]
+            #[schemars(with = "f64")]
+            xyz_mm: Option<Spanned<f64>>,
+            /// Tolerance of each of three turns about the axes of a joint's frame, of a robot without a table, in radians.
+            #[serde(default)]
+            #[schemars(with = "f64")]
+            rpy_rad: Option<Spanned<f64>>,
+            /// Tolerance of each of three turns about the axes of a joint's frame, of a robot without a table, in degrees.
+            #[serde(default)]
+            #[schemars(with = "f64")]
+            rpy_deg: Option<Spanned<f64>>,
+            $($behind)*
+        }
+
+        impl $name {
+            /// The tolerances of the quantities, in SI units.
+            fn parameters(&self, reader: ToleranceReader) -> Result<ParameterTolerances, Diagnostic> {
+                let read = |unit, quantity, keys| reader.read(unit, quantity, keys);
+                Ok(ParameterTolerances {
+                    a_m: read(Unit::Length, "a", [&self.a_m, &self.a_mm])?,
+                    d_m: read(Unit::Length, "d", [&self.d_m, &self.d_mm])?,
+                    alpha_rad: read(Unit::Angle, "alpha", [&self.alpha_rad, &self.alpha_deg])?,
+                    theta_rad: read(Unit::Angle, "theta", [&self.theta_rad, &self.theta_deg])?,
+                    zero_m: read(Unit::Length, "zero", [&self.zero_m, &self.zero_mm])?,
+                    zero_rad: read(Unit::Angle, "zero", [&self.zero_rad, &self.zero_deg])?,
+                    xyz_m: read(Unit::Length, "xyz", [&self.xyz_m, &self.xyz_mm])?,
+                    rpy_rad: read(Unit::Angle, "rpy", [&self.rpy_rad, &self.rpy_deg])?,
+                })
+            }
+        }
+    };
+}
+
+tolerance_section! {
+    /// By how much each parameter of the robot may be off, above 0: half widths. What is not written is exact. Each quantity has one of its
+    /// two keys: SI units or engineering units.
+    #[schemars(rename = "ParameterTolerances")]
+    pub struct WrittenTolerances {
+        /// How each error is distributed: "uniform" within its tolerance, which is the default, or "normal".
+        #[serde(default)]
+        kind: DistributionKind,
+        /// Standard deviations of a tolerance, if errors are normal; 3 by default.
+        #[serde(default)]
+        #[schemars(with = "f64")]
+        sigmas: Option<Spanned<f64>>,
+    } followed_by {
+        /// Tolerance of each coordinate of the base, in metres.
+        #[serde(default)]
+        #[schemars(with = "f64")]
+        base_m: Option<Spanned<f64>>,
+        /// Tolerance of each coordinate of the base, in millimetres.
+        #[serde(default)]
+        #[schemars(with = "f64")]
+        base_mm: Option<Spanned<f64>>,
+        /// Tolerance of each turn of the base about its axes, in radians.
+        #[serde(default)]
+        #[schemars(with = "f64")]
+        base_rad: Option<Spanned<f64>>,
+        /// Tolerance of each turn of the base about its axes, in degrees.
+        #[serde(default)]
+        #[schemars(with = "f64")]
+        base_deg: Option<Spanned<f64>>,
+        /// Tolerance of each coordinate of the tool centre point in the last link, in metres.
+        #[serde(default)]
+        #[schemars(with = "f64")]
+        tcp_m: Option<Spanned<f64>>,
+        /// Tolerance of each coordinate of the tool centre point in the last link, in millimetres.
+        #[serde(default)]
+        #[schemars(with = "f64")]
+        tcp_mm: Option<Spanned<f64>>,
+        /// Tolerance of each turn of the tool centre point about its axes, in radians.
+        #[serde(default)]
+        #[schemars(with = "f64")]
+        tcp_rad: Option<Spanned<f64>>,
+        /// Tolerance of each turn of the tool centre point about its axes, in degrees.
+        #[serde(default)]
+        #[schemars(with = "f64")]
+        tcp_deg: Option<Spanned<f64>>,
+        /// Other tolerances of single joints and their rows.
+        #[serde(default)]
+        row: Vec<WrittenJointTolerances>,
+    }
 }
 
 /// How an error is distributed within its tolerance.
@@ -134,78 +169,14 @@ enum DistributionKind {
     Normal,
 }
 
-/// Tolerances of one joint and its row, in the place of the general ones.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "JointTolerances")]
-struct WrittenJointTolerances {
-    /// Name of the joint.
-    #[schemars(with = "String")]
-    joint: Spanned<String>,
-    /// Tolerance of link length a of a row, in metres.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    a_m: Option<Spanned<f64>>,
-    /// Tolerance of link length a of a row, in millimetres.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    a_mm: Option<Spanned<f64>>,
-    /// Tolerance of link offset d of a row, in metres.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    d_m: Option<Spanned<f64>>,
-    /// Tolerance of link offset d of a row, in millimetres.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    d_mm: Option<Spanned<f64>>,
-    /// Tolerance of link twist alpha of a row, in radians.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    alpha_rad: Option<Spanned<f64>>,
-    /// Tolerance of link twist alpha of a row, in degrees.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    alpha_deg: Option<Spanned<f64>>,
-    /// Tolerance of joint angle theta of a row, in radians.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    theta_rad: Option<Spanned<f64>>,
-    /// Tolerance of joint angle theta of a row, in degrees.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    theta_deg: Option<Spanned<f64>>,
-    /// Tolerance of zero of a joint that slides, in metres.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    zero_m: Option<Spanned<f64>>,
-    /// Tolerance of zero of a joint that slides, in millimetres.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    zero_mm: Option<Spanned<f64>>,
-    /// Tolerance of zero of a joint that turns: encoder and backlash, in radians.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    zero_rad: Option<Spanned<f64>>,
-    /// Tolerance of zero of a joint that turns: encoder and backlash, in degrees.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    zero_deg: Option<Spanned<f64>>,
-    /// Tolerance of each coordinate of a joint's origin, of a robot without a table, in metres.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    xyz_m: Option<Spanned<f64>>,
-    /// Tolerance of each coordinate of a joint's origin, of a robot without a table, in millimetres.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    xyz_mm: Option<Spanned<f64>>,
-    /// Tolerance of each of three turns about the axes of a joint's frame, of a robot without a table, in radians.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    rpy_rad: Option<Spanned<f64>>,
-    /// Tolerance of each of three turns about the axes of a joint's frame, of a robot without a table, in degrees.
-    #[serde(default)]
-    #[schemars(with = "f64")]
-    rpy_deg: Option<Spanned<f64>>,
+tolerance_section! {
+    /// Tolerances of one joint and its row, in the place of the general ones.
+    #[schemars(rename = "JointTolerances")]
+    struct WrittenJointTolerances {
+        /// Name of the joint.
+        #[schemars(with = "String")]
+        joint: Spanned<String>,
+    } followed_by {}
 }
 
 /// Checks the values of a section.
@@ -223,16 +194,7 @@ impl WrittenTolerances {
     pub fn declared(&self, joints: &[&str], code: &'static Code) -> Result<DeclaredTolerances, Diagnostic> {
         let reader = ToleranceReader { code };
         let read = |unit, quantity, keys| reader.read(unit, quantity, keys);
-        let general = ParameterTolerances {
-            a_m: read(Unit::Length, "a", [&self.a_m, &self.a_mm])?,
-            d_m: read(Unit::Length, "d", [&self.d_m, &self.d_mm])?,
-            alpha_rad: read(Unit::Angle, "alpha", [&self.alpha_rad, &self.alpha_deg])?,
-            theta_rad: read(Unit::Angle, "theta", [&self.theta_rad, &self.theta_deg])?,
-            zero_m: read(Unit::Length, "zero", [&self.zero_m, &self.zero_mm])?,
-            zero_rad: read(Unit::Angle, "zero", [&self.zero_rad, &self.zero_deg])?,
-            xyz_m: read(Unit::Length, "xyz", [&self.xyz_m, &self.xyz_mm])?,
-            rpy_rad: read(Unit::Angle, "rpy", [&self.rpy_rad, &self.rpy_deg])?,
-        };
+        let general = self.parameters(reader)?;
         let frame = |quantity, lengths, angles| {
             let position_m = read(Unit::Length, quantity, lengths)?;
             Ok(FrameTolerances { position_m, orientation_rad: read(Unit::Angle, quantity, angles)? })
@@ -273,17 +235,7 @@ impl ToleranceReader {
             let known = known_names(name, "joints", joints.iter().copied());
             return Err(Diagnostic::error(self.code, message).at(row.joint.span()).with_help(known));
         }
-        let read = |unit, quantity, keys| self.read(unit, quantity, keys);
-        let tolerances = ParameterTolerances {
-            a_m: read(Unit::Length, "a", [&row.a_m, &row.a_mm])?,
-            d_m: read(Unit::Length, "d", [&row.d_m, &row.d_mm])?,
-            alpha_rad: read(Unit::Angle, "alpha", [&row.alpha_rad, &row.alpha_deg])?,
-            theta_rad: read(Unit::Angle, "theta", [&row.theta_rad, &row.theta_deg])?,
-            zero_m: read(Unit::Length, "zero", [&row.zero_m, &row.zero_mm])?,
-            zero_rad: read(Unit::Angle, "zero", [&row.zero_rad, &row.zero_deg])?,
-            xyz_m: read(Unit::Length, "xyz", [&row.xyz_m, &row.xyz_mm])?,
-            rpy_rad: read(Unit::Angle, "rpy", [&row.rpy_rad, &row.rpy_deg])?,
-        };
+        let tolerances = row.parameters(self)?;
         Ok(JointTolerances { joint: name.clone(), tolerances })
     }
 
