@@ -3,7 +3,7 @@
 use congruent_input::display::number;
 use plotters::{prelude::*, style::text_anchor::HPos};
 
-use crate::plot::{FONT, GREY, PlotError, TITLE_PX, note, note_px, page, text, tick};
+use crate::plot::{GREY, PlotArea, PlotError, TITLE_PX, note, note_px, page, plane_to_scale, text};
 
 /// A value over a plane.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,11 +82,7 @@ pub fn heat_map(map: &HeatMap) -> Result<String, PlotError> {
     Ok(svg)
 }
 
-fn draw_cells(
-    area: &crate::plot::PlotArea<'_>,
-    map: &HeatMap,
-    share: impl Fn(f64) -> f64,
-) -> Result<(), PlotError> {
+fn draw_cells(area: &PlotArea<'_>, map: &HeatMap, share: impl Fn(f64) -> f64) -> Result<(), PlotError> {
     let (mut lower, mut upper) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     for HeatCell { corner, .. } in &map.cells {
         for axis in 0..2 {
@@ -97,26 +93,9 @@ fn draw_cells(
     if map.cells.is_empty() {
         (lower, upper) = ([0.0; 2], [1.0; 2]);
     }
-    // As many metres per pixel along both axes.
     let half = (0..2).map(|axis| (upper[axis] - lower[axis]) / 2.0).fold(f64::MIN_POSITIVE, f64::max) * 1.04;
-    let [x, y] = [0, 1].map(|axis| f64::midpoint(lower[axis], upper[axis]));
-    let mut builder = ChartBuilder::on(area);
-    builder.margin(14).x_label_area_size(44).y_label_area_size(56);
-    let (width, height) = builder.build_cartesian_2d(0.0..1.0, 0.0..1.0)?.plotting_area().dim_in_pixel();
-    let per_pixel = 2.0 * half / f64::from(width.min(height));
-    let [half_x, half_y] = [width, height].map(|pixels| per_pixel * f64::from(pixels) / 2.0);
-    let mut plane = builder.build_cartesian_2d(x - half_x..x + half_x, y - half_y..y + half_y)?;
-    plane
-        .configure_mesh()
-        .x_desc(&map.axes[0])
-        .y_desc(&map.axes[1])
-        .light_line_style(TRANSPARENT)
-        .x_labels(7)
-        .y_labels(7)
-        .x_label_formatter(&|at| tick(*at))
-        .y_label_formatter(&|at| tick(*at))
-        .label_style((FONT, 13))
-        .draw()?;
+    let centre = [0, 1].map(|axis| f64::midpoint(lower[axis], upper[axis]));
+    let mut plane = plane_to_scale(area, centre, half, &map.axes)?;
     plane.draw_series(level_runs(map, share).into_iter().map(
         |LevelRun { corner: [left, low], cells, level }| {
             let corners = [(left, low), (left + cells * map.cell_m, low + map.cell_m)];
@@ -162,11 +141,7 @@ fn level_runs(map: &HeatMap, share: impl Fn(f64) -> f64) -> Vec<LevelRun> {
     runs
 }
 
-fn draw_scale(
-    area: &crate::plot::PlotArea<'_>,
-    name: &str,
-    [lower, upper]: [f64; 2],
-) -> Result<(), PlotError> {
+fn draw_scale(area: &PlotArea<'_>, name: &str, [lower, upper]: [f64; 2]) -> Result<(), PlotError> {
     const STEPS: i32 = 64;
     const TOP_PX: i32 = 60;
     const STEP_PX: i32 = 6;

@@ -3,7 +3,7 @@
 
 use congruent_input::display::number;
 use plotters::{
-    coord::Shift,
+    coord::{Shift, types::RangedCoordf64},
     prelude::*,
     style::text_anchor::{HPos, Pos, VPos},
 };
@@ -31,6 +31,8 @@ pub(crate) const FONT: &str = "sans-serif";
 pub(crate) const TITLE_PX: u32 = 44;
 
 pub(crate) type PlotArea<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+/// A plane with coordinates in metres.
+type Plane<'a> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
 /// One bar: its length, and a mark within it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -265,26 +267,8 @@ pub fn views(PlaneViews { title, series, views, note: below }: &PlaneViews) -> R
 }
 
 fn draw_view(area: &PlotArea<'_>, view: &PlaneView, radius: f64) -> Result<(), PlotError> {
-    let ([x, y], _) = span(view);
-    let mut builder = ChartBuilder::on(area);
-    builder.margin(14).x_label_area_size(44).y_label_area_size(56);
-    // As many metres per pixel along both axes.
-    let (width, height) = builder.build_cartesian_2d(0.0..1.0, 0.0..1.0)?.plotting_area().dim_in_pixel();
-    let per_pixel = 2.0 * radius / f64::from(width.min(height));
-    let half = |pixels: u32| per_pixel * f64::from(pixels) / 2.0;
-    let (half_x, half_y) = (half(width), half(height));
-    let mut plane = builder.build_cartesian_2d(x - half_x..x + half_x, y - half_y..y + half_y)?;
-    plane
-        .configure_mesh()
-        .x_desc(&view.axes[0])
-        .y_desc(&view.axes[1])
-        .light_line_style(TRANSPARENT)
-        .x_labels(7)
-        .y_labels(7)
-        .x_label_formatter(&|at| tick(*at))
-        .y_label_formatter(&|at| tick(*at))
-        .label_style((FONT, 13))
-        .draw()?;
+    let (centre, _) = span(view);
+    let mut plane = plane_to_scale(area, centre, radius, &view.axes)?;
     let fill = COLOURS[0].mix(0.45).filled();
     plane.draw_series(view.areas.iter().map(|[a, b]| Rectangle::new([(a[0], a[1]), (b[0], b[1])], fill)))?;
     for curve in &view.curves {
@@ -301,8 +285,35 @@ fn draw_view(area: &PlotArea<'_>, view: &PlaneView, radius: f64) -> Result<(), P
     Ok(())
 }
 
+/// The axes of a plane with as many metres per pixel along both; `half` is the least extent to each side of the centre.
+pub(crate) fn plane_to_scale<'a>(
+    area: &PlotArea<'a>,
+    [x, y]: [f64; 2],
+    half: f64,
+    axes: &[String; 2],
+) -> Result<Plane<'a>, PlotError> {
+    let mut builder = ChartBuilder::on(area);
+    builder.margin(14).x_label_area_size(44).y_label_area_size(56);
+    let (width, height) = builder.build_cartesian_2d(0.0..1.0, 0.0..1.0)?.plotting_area().dim_in_pixel();
+    let per_pixel = 2.0 * half / f64::from(width.min(height));
+    let [half_x, half_y] = [width, height].map(|pixels| per_pixel * f64::from(pixels) / 2.0);
+    let mut plane = builder.build_cartesian_2d(x - half_x..x + half_x, y - half_y..y + half_y)?;
+    plane
+        .configure_mesh()
+        .x_desc(&axes[0])
+        .y_desc(&axes[1])
+        .light_line_style(TRANSPARENT)
+        .x_labels(7)
+        .y_labels(7)
+        .x_label_formatter(&|at| tick(*at))
+        .y_label_formatter(&|at| tick(*at))
+        .label_style((FONT, 13))
+        .draw()?;
+    Ok(plane)
+}
+
 /// A tick of an axis in metres; steps of the axis add up to nearly 0, which must not read -0.0.
-pub(crate) fn tick(value: f64) -> String {
+fn tick(value: f64) -> String {
     number((value * 1e9).round() / 1e9 + 0.0)
 }
 
