@@ -1,8 +1,6 @@
 //! Errors with the covariance of a calibration: what `congruent calibrate --format json` has printed.
 
-use congruent_calibration::estimation::{
-    CorrectionParameter, base_pose, joint_axes, tool_pose, zero_offsets,
-};
+use congruent_calibration::estimation::{base_pose, joint_axes, tool_pose, zero_offsets};
 use congruent_description::RobotDescription;
 use congruent_input::{Diagnostic, SourceFile, known_names};
 use nalgebra::DMatrix;
@@ -77,37 +75,22 @@ pub fn calibrated(description: &RobotDescription, source: &SourceFile) -> Result
         None => joint_axes(&model.chain, &names),
     });
     known.extend(tool_pose(&model.chain));
-    let (mut errors, mut columns) = (Vec::new(), Vec::new());
+    // Of each correction its place among the known ones, in whose order the corrections of one slot act, and its column.
+    let mut placed: Vec<(usize, usize)> = Vec::new();
     for (column, PrintedCorrection { name }) in printed.parameters.iter().enumerate() {
         if ["camera.", "target."].iter().any(|frame| name.starts_with(frame)) {
             continue;
         }
-        let Some(correction) = known.iter().find(|correction| correction.name == *name) else {
+        let Some(place) = known.iter().position(|correction| correction.name == *name) else {
             let all = known.iter().map(|correction| correction.name.as_str());
             return Err(refused(format!("{path}: this robot has no correction \"{name}\""))
                 .with_help(known_names(name, "corrections", all)));
         };
-        errors.push((correction.clone(), place(&known, correction)));
-        columns.push(column);
+        placed.push((place, column));
     }
-    Ok(in_order(model, &errors, &covariance.select_rows(&columns).select_columns(&columns)))
-}
-
-/// Place of a correction in the order in which the corrections of one slot act.
-fn place(known: &[CorrectionParameter], correction: &CorrectionParameter) -> usize {
-    known.iter().position(|other| other.name == correction.name).unwrap_or(known.len())
-}
-
-/// The chain with its errors in the order in which they act.
-fn in_order(
-    model: NominalModel<'_>,
-    errors: &[(CorrectionParameter, usize)],
-    covariance: &DMatrix<f64>,
-) -> ToleratedChain {
-    let mut order: Vec<usize> = (0..errors.len()).collect();
-    order.sort_by_key(|&at| errors[at].1);
-    let covariance = covariance.select_rows(&order).select_columns(&order);
-    let spread = ErrorSpread::of_covariance(&covariance, SIGMAS);
-    let corrections = order.iter().map(|&at| errors[at].0.clone()).collect();
-    model.with_spread(corrections, spread)
+    placed.sort_by_key(|&(place, _)| place);
+    let columns: Vec<usize> = placed.iter().map(|&(_, column)| column).collect();
+    let covariance = covariance.select_rows(&columns).select_columns(&columns);
+    let corrections = placed.iter().map(|&(place, _)| known[place].clone()).collect();
+    Ok(model.with_spread(corrections, ErrorSpread::of_covariance(&covariance, SIGMAS)))
 }

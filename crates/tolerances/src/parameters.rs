@@ -188,7 +188,11 @@ fn frame_errors(six: Vec<CorrectionParameter>, of: &FrameTolerances) -> Vec<(Cor
         ParameterUnit::Length => of.position_m.unwrap_or(0.0),
         ParameterUnit::Angle => of.orientation_rad.unwrap_or(0.0),
     };
-    six.into_iter().map(|correction| (tolerance(&correction), correction)).map(|(t, c)| (c, t)).collect()
+    let with_tolerance = |correction| {
+        let tolerance = tolerance(&correction);
+        (correction, tolerance)
+    };
+    six.into_iter().map(with_tolerance).collect()
 }
 
 /// a, d, alpha and theta of each row.

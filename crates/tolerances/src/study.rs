@@ -97,8 +97,11 @@ pub fn tolerance_study(
     let norm = NormDistribution::new();
     let columns = ScaledColumns::new(tolerated, &studied.configurations);
     let draws = Draws { samples: options.samples, seed: options.seed };
-    let overall = levels(&studied, &columns, &norm, draws);
-    let [worst, worst_orientation] = [0, 1].map(|part| studied.worst(part, &norm, draws));
+    let overall = levels_over(tolerated, &columns, &studied.configurations, &norm, draws);
+    let [q, q_orientation] = [0, 1].map(|part| studied.worst_configuration(part, &norm));
+    let worst = studied.worst_at(&q, &norm, draws);
+    let worst_orientation =
+        if q_orientation == q { worst.clone() } else { studied.worst_at(&q_orientation, &norm, draws) };
     let directions = CoveringDirections::new();
     let (worst_case, errors) = studied.worst_case(&directions);
     let at = studied.at_each(&columns, &norm, &directions);
@@ -157,15 +160,6 @@ fn robot_q(description: &RobotDescription, arm: &Arm, q: &ArmQ) -> RobotQ {
 }
 
 /// Errors over configurations by both methods.
-fn levels(
-    studied: &StudiedArm<'_>,
-    columns: &ScaledColumns,
-    norm: &NormDistribution,
-    draws: Draws,
-) -> ErrorLevels {
-    levels_over(studied.tolerated, columns, &studied.configurations, norm, draws)
-}
-
 fn levels_over(
     tolerated: &ToleratedChain,
     columns: &ScaledColumns,
@@ -210,17 +204,21 @@ impl StudiedArm<'_> {
         best.map_or_else(|| RobotQ::zeros(self.description.robot.dof()), |(_, q)| q)
     }
 
-    /// The error where the 99.7 % quantile of the distance (part 0) or of the angle (part 1) is largest, to first order: the root
-    /// mean square of the angle is the same at all configurations if the tolerances of all axes are.
-    fn worst(&self, part: usize, norm: &NormDistribution, draws: Draws) -> WorstConfiguration {
+    /// Where the 99.7 % quantile of the distance (part 0) or of the angle (part 1) is largest, to first order: the root mean square
+    /// of the angle is the same at all configurations if the tolerances of all axes are.
+    fn worst_configuration(&self, part: usize, norm: &NormDistribution) -> RobotQ {
         let mut covariances = ErrorCovariances::new(self.tolerated);
-        let q = self.largest(|q| norm.quantile(&[PrincipalVariances::new(&covariances.at(q)[part])], 0.997));
-        let alone = RobotQList::from(&q);
+        self.largest(|q| norm.quantile(&[PrincipalVariances::new(&covariances.at(q)[part])], 0.997))
+    }
+
+    /// The error at a worst configuration.
+    fn worst_at(&self, q: &RobotQ, norm: &NormDistribution, draws: Draws) -> WorstConfiguration {
+        let alone = RobotQList::from(q);
         let columns = ScaledColumns::new(self.tolerated, &alone);
         // Another seed than over all configurations: the two are then independent.
         let draws = Draws { seed: draws.seed.wrapping_add(1), ..draws };
         let levels = levels_over(self.tolerated, &columns, &alone, norm, draws);
-        WorstConfiguration { levels, at: self.joint_values(&q) }
+        WorstConfiguration { levels, at: self.joint_values(q) }
     }
 
     /// The worst case over the joint range, and the error of each parameter in it.
