@@ -77,8 +77,8 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let access = arguments.access.access()?;
     let path = arguments.plan.clone().unwrap_or_else(|| PathBuf::from(&table.header.plan));
     let plan = SweepPlan::read(&path, &access)?;
-    let runner = CaseRunner::new(&plan, access.clone());
-    let header = SweepHeader::new(&runner, &access)?;
+    let runner = CaseRunner::new(&plan, access);
+    let header = SweepHeader::new(&runner)?;
     if header.identity != table.header.identity {
         let message = format!("{} is not the plan of these rows", path.display());
         return Err(Diagnostic::error(codes::sweep::OTHER_PLAN, message)

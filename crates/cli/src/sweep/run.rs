@@ -53,8 +53,8 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let access = arguments.access.access()?;
     let plan = SweepPlan::read(&arguments.plan, &access)?;
-    let runner = CaseRunner::new(&plan, access.clone());
-    let header = SweepHeader::new(&runner, &access)?;
+    let runner = CaseRunner::new(&plan, access);
+    let header = SweepHeader::new(&runner)?;
     let folder = SweepFolder::at(&arguments.out);
     folder.begin(&header)?;
     let range = arguments.range(&plan)?;

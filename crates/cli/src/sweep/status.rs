@@ -35,7 +35,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     if let Some(plan) = &arguments.plan {
         let access = arguments.access.access()?;
         let plan = SweepPlan::read(plan, &access)?;
-        let header = SweepHeader::new(&CaseRunner::new(&plan, access.clone()), &access)?;
+        let header = SweepHeader::new(&CaseRunner::new(&plan, access))?;
         folders[0].begin(&header)?;
     }
     let table = MergedTable::read(&folders)?;

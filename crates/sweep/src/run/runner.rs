@@ -37,6 +37,11 @@ impl<'a> CaseRunner<'a> {
         self.plan
     }
 
+    /// The files that were opened for the plan.
+    pub(crate) fn access(&self) -> &FileAccess {
+        &self.access
+    }
+
     /// The checked scenario of a case.
     ///
     /// # Errors

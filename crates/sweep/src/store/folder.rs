@@ -9,6 +9,7 @@ use std::{
 };
 
 use congruent_input::Diagnostic;
+use congruent_results::files::write_whole;
 
 use super::{cases::CaseRange, header::SweepHeader};
 use crate::{codes, run::CaseRow};
@@ -75,10 +76,9 @@ impl SweepFolder {
         }
         let write = || {
             fs::create_dir_all(self.path.join(ROWS))?;
-            // A name of this process, then renamed: another call that begins at the same time reads all of it or nothing.
-            let own = self.path.join(format!("{HEADER}.{}", std::process::id()));
-            fs::write(&own, serde_json::to_string_pretty(header)? + "\n")?;
-            fs::rename(own, self.path.join(HEADER))
+            let text = serde_json::to_string_pretty(header)? + "\n";
+            // Another call that begins at the same time reads all of it or nothing.
+            write_whole(&self.path.join(HEADER), text.as_bytes()).map_err(|error| error.source)
         };
         write().map_err(|error: io::Error| unwritable(&self.path, &error))
     }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use congruent_input::{
-    Diagnostic, FileAccess, Findings, InputFile, Override,
+    Diagnostic, Findings, InputFile, Override,
     codes::{cli::SET, toml::UNKNOWN_KEY},
 };
 use congruent_results::report::Versions;
@@ -53,14 +53,14 @@ impl SweepHeader {
     ///
     /// # Errors
     /// The findings of the first case, if none of the first can be run: a key is wrong, or the scenario is.
-    pub fn new(runner: &CaseRunner<'_>, access: &FileAccess) -> Result<Self, Findings> {
+    pub fn new(runner: &CaseRunner<'_>) -> Result<Self, Findings> {
         let plan = runner.plan();
         let setup = first_setup(runner)?;
         let files: BTreeMap<String, String> = setup
             .inputs
             .iter()
             .chain(&setup.description.inputs)
-            .chain(&access.files())
+            .chain(&runner.access().files())
             .chain(&named_files(runner))
             .map(|input| (file_name(input), input.sha256.clone()))
             .collect();
