@@ -7,6 +7,7 @@ use serde_json::Value;
 use crate::support::{
     command::{congruent, congruent_json, text},
     corpus::workspace,
+    scenario_files::is_plan,
 };
 
 /// The names that `congruent schema` lists.
@@ -69,9 +70,8 @@ fn files_of_the_project_follow_their_schemas() {
         let files = toml_files(folder);
         assert!(files.len() > 5, "{folder}: {files:?}");
         for file in files {
-            let file = text(&file);
-            let name = if file.ends_with(".sweep.toml") { "sweep_plan" } else { name };
-            follows(name, &file, &read_toml(file.as_ref()));
+            let name = if is_plan(&file) { "sweep_plan" } else { name };
+            follows(name, &text(&file), &read_toml(&file));
         }
     }
 }

@@ -2,16 +2,9 @@
 
 use std::fmt::Write;
 
-use crate::support::{command::congruent, golden::read_json, scratch_folder::ScratchFolder};
-
-const JOINTS: [&str; 6] = [
-    "shoulder_pan_joint",
-    "shoulder_lift_joint",
-    "elbow_joint",
-    "wrist_1_joint",
-    "wrist_2_joint",
-    "wrist_3_joint",
-];
+use crate::support::{
+    command::congruent, golden::read_json, published_table::UR5E_JOINTS, scratch_folder::ScratchFolder,
+};
 
 /// What is wrong with reported velocities.
 #[derive(Clone, Copy)]
@@ -26,7 +19,7 @@ fn log(rate_hz: u32, fastest_rad_s: f64, reported: Reported) -> String {
     for at in 0..(60 * rate_hz).max(300) {
         let time_s = f64::from(at) / f64::from(rate_hz);
         let (mut q, mut v) = (String::new(), String::new());
-        for (joint, name) in (0_u8..).zip(JOINTS) {
+        for (joint, name) in (0_u8..).zip(UR5E_JOINTS) {
             let frequency = fastest_rad_s - 0.08 * f64::from(joint);
             let late_s = time_s - reported.late_s;
             let mean = [0.3, -1.2, 1.4, -0.9, 1.1, 0.2][usize::from(joint)];

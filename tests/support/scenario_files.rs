@@ -11,15 +11,13 @@ use super::corpus::workspace;
 /// The scenarios of a folder of the project, sorted.
 pub(crate) fn scenario_files(folder: &str) -> Vec<PathBuf> {
     let entries = fs::read_dir(workspace().join(folder)).unwrap().flatten();
-    let mut files: Vec<PathBuf> =
-        entries.map(|entry| entry.path()).filter(|path| is_scenario(path)).collect();
+    let is_scenario = |path: &PathBuf| path.extension() == Some(OsStr::new("toml")) && !is_plan(path);
+    let mut files: Vec<PathBuf> = entries.map(|entry| entry.path()).filter(is_scenario).collect();
     files.sort();
     files
 }
 
-/// A plan is called `<name>.sweep.toml`.
-fn is_scenario(path: &Path) -> bool {
-    let is_plan =
-        path.file_stem().is_some_and(|stem| Path::new(stem).extension() == Some(OsStr::new("sweep")));
-    path.extension() == Some(OsStr::new("toml")) && !is_plan
+/// Whether a file is the plan of a sweep: `<name>.sweep.toml`.
+pub(crate) fn is_plan(path: &Path) -> bool {
+    path.to_string_lossy().ends_with(".sweep.toml")
 }

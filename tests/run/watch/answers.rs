@@ -2,10 +2,11 @@
 
 use serde_json::Value;
 
-use super::{JOINTS, documents, line, of_kind, swing, times};
+use super::{documents, line, of_kind, swing, times};
 use crate::support::{
     command::{congruent_with_input, text},
     live::Live,
+    published_table::UR5E_JOINTS,
     scratch_folder::ScratchFolder,
 };
 
@@ -29,7 +30,7 @@ fn each_line_is_answered_before_the_next_is_written() {
         if number == 0 {
             let started = live.next();
             assert_eq!(started["kind"], "started", "{started}");
-            assert_eq!(started["joints"].as_array().unwrap().len(), JOINTS.len(), "{started}");
+            assert_eq!(started["joints"].as_array().unwrap().len(), UR5E_JOINTS.len(), "{started}");
         }
         let pose = live.next();
         assert_eq!((&pose["kind"], &pose["time_s"]), (&"pose".into(), &time_s.into()), "{pose}");

@@ -9,15 +9,7 @@ use std::fmt::Write;
 
 use serde_json::Value;
 
-/// Joints of the UR5e from the base on.
-const JOINTS: [&str; 6] = [
-    "shoulder_pan_joint",
-    "shoulder_lift_joint",
-    "elbow_joint",
-    "wrist_1_joint",
-    "wrist_2_joint",
-    "wrist_3_joint",
-];
+use crate::support::published_table::UR5E_JOINTS;
 
 /// Positions on a slow swing.
 fn swing(time_s: f64) -> [f64; 6] {
@@ -31,7 +23,7 @@ fn swing(time_s: f64) -> [f64; 6] {
 /// A line with joint positions.
 fn line(time_s: f64, q: [f64; 6]) -> String {
     let mut named = String::new();
-    for (name, q) in JOINTS.iter().zip(q) {
+    for (name, q) in UR5E_JOINTS.iter().zip(q) {
         let _ = write!(named, ", \"{name}\": {q}");
     }
     format!("{{\"time_s\": {time_s}, \"q\": {{{}}}}}", named.trim_start_matches(", "))
