@@ -17,5 +17,6 @@ mod servo;
 mod sqlite_bags;
 mod sweep;
 mod trajectories;
+mod uncertainty;
 mod velocity_rates;
 mod watch;

@@ -10,7 +10,7 @@ use congruent_results::{
     RecordingFormat,
     files::{FolderError, OutputFolder},
     record,
-    report::{Causes, diagnose_run},
+    report::{AfterRun, diagnose_run},
 };
 use congruent_scenario::{AgreementCheck, Check, Scenario, SimulationSettings};
 use congruent_twin::{
@@ -108,7 +108,7 @@ pub fn joint_sweep(description: RobotDescription, out: &std::path::Path) -> Resu
     let source = SweepSource::new(&setup.description.robot, &joints, duration_s);
     let run = Run::with_source(&setup, Box::new(source))?;
     // Nothing acts on the robot, so that there is no physics that the poses could be diagnosed with.
-    let causes = |run: &mut Run<'_>, outcome: &mut _| Causes::from_samples(diagnose_run(run, outcome));
+    let causes = |run: &mut Run<'_>, outcome: &mut _| AfterRun::from_samples(diagnose_run(run, outcome));
     let recorded = record(run, &[&RerunFormat], &folder, causes, |_| ());
     recorded.result?;
     Ok(JointSweep {

@@ -61,7 +61,7 @@ pub use congruent_lint_report::{
 #[cfg(feature = "recording")]
 pub use joint_sweep::{JointSweep, SweepError, SweptJoint, joint_sweep};
 pub use run_comparison::{NotComparable, RunComparison, compare_runs};
-pub use run_scenario::run_scenario;
+pub use run_scenario::{PreparedScenario, RunStage, run_scenario};
 pub use with_physics::{forward, joint_dynamics};
 
 /// What most programs need.

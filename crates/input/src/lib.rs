@@ -37,6 +37,7 @@ pub use written::{
     digits::{TypedNumber, half_places, half_places_of_point, half_places_of_values},
     name::serde_name,
     number::{self, Slack, fitted_number},
+    numbers_at::NumberAt,
     overrides::Override,
     rotation_from_rpy_fixed_xyz,
     rpy::{axes_of_rpy_fixed_xyz, fitted_rpy_fixed_xyz_rad},

@@ -271,6 +271,8 @@ pub enum Verdict {
     NotAsExpected,
     /// Nothing was checked, which is never success.
     NothingChecked,
+    /// The scenario passes as it is written, and the cases of `[uncertainty]` are too few to say whether enough of them pass.
+    NotEnoughCases,
     /// The simulation failed before the end of the run.
     Broken,
 }
@@ -282,7 +284,7 @@ impl Verdict {
             Self::AsExpected => 0,
             Self::NotAsExpected => 1,
             Self::Broken => 3,
-            Self::NothingChecked => 4,
+            Self::NothingChecked | Self::NotEnoughCases => 4,
         }
     }
 }

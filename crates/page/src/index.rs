@@ -35,7 +35,8 @@ impl IndexEntry<'_> {
             Verdict::Broken => 1,
             Verdict::NothingChecked => 2,
             Verdict::NotAsExpected => 3,
-            Verdict::AsExpected => 4,
+            Verdict::NotEnoughCases => 4,
+            Verdict::AsExpected => 5,
         };
         // Negated: sorted upwards, the largest share comes first.
         (verdict, -tightest(report).map_or(0.0, |tightest| tightest.share))

@@ -23,6 +23,7 @@ fn clearance(ignore: &[[&str; 2]]) -> Check {
         minimum_mm: None,
         pairs: Vec::new(),
         ignore: ignore.iter().map(|pair| pair.map(str::to_owned)).collect(),
+        passing: None,
         on_violation: OnViolation::default(),
     })
 }

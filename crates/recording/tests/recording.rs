@@ -15,7 +15,7 @@ use congruent_recording::{
 };
 use congruent_results::{
     Options, Recording as _, execute,
-    report::{Causes, RunReport},
+    report::{AfterRun, RunReport},
 };
 use congruent_twin::{Run, RunSetup};
 
@@ -235,7 +235,7 @@ fn scalars_are_exact() {
     let (outcome, result) = run.finish(&mut checks, &mut counted, |_| ());
     result.unwrap();
     Box::new(counted.recorder)
-        .finish(&RunReport::new(&scenario, &sources, outcome, Causes::default(), None))
+        .finish(&RunReport::new(&scenario, &sources, outcome, AfterRun::default(), None))
         .unwrap();
 
     let summary = inspect(&path).unwrap();

@@ -18,7 +18,7 @@ use congruent_monitors::{
     ComparedPoses,
     verdict::{CheckResult, Status},
 };
-use congruent_results::report::{Causes, explain};
+use congruent_results::report::{AfterRun, explain};
 use congruent_scenario::{CheckKind, PoseOrigin};
 use congruent_twin::{Outcome, Run, RunSetup};
 use nalgebra::Isometry3;
@@ -43,7 +43,7 @@ const MILLIMETRES: f64 = 1e3;
 const NEAR: f64 = 0.05;
 
 /// Causes of failed checks of a run, those of recorded poses among them, which become notes of their check.
-pub fn explain_recorded(run: &mut Run<'_>, outcome: &mut Outcome) -> Causes {
+pub fn explain_recorded(run: &mut Run<'_>, outcome: &mut Outcome) -> AfterRun {
     let setup = run.setup();
     let is_failed = |check: &&mut CheckResult| check.check == CheckKind::Pose && check.status == Status::Fail;
     let jump = jump(&outcome.checks);

@@ -11,7 +11,7 @@ use congruent_twin::{Outcome, Run, RunError, RunSetup};
 
 use crate::{
     files::{ComparedResults, FolderError, OutputError, OutputFolder, REPORT, compare_results, read_result},
-    report::{Causes, RunReport, earlier_report, explain, write_junit},
+    report::{AfterRun, RunReport, earlier_report, explain, write_junit},
 };
 
 /// Which results are written, and to which folder.
@@ -153,7 +153,7 @@ pub fn execute_with<'a>(
     setup: &'a RunSetup,
     options: &Options<'a>,
     begin: impl FnOnce(&'a RunSetup) -> Result<Run<'a>, RunError>,
-    explain: impl FnOnce(&mut Run<'_>, &mut Outcome) -> Causes,
+    explain: impl FnOnce(&mut Run<'_>, &mut Outcome) -> AfterRun,
     progress: impl FnMut(u64),
 ) -> Result<(RunReport, OutputFolder), ExecuteError> {
     let folder = OutputFolder::create(&options.out, &setup.scenario.name, &setup.inputs)?;
@@ -171,9 +171,11 @@ pub fn execute_with<'a>(
 
 /// The resolved scenario; values of the robot that were set are not in it, so that a comment has the call that sets them again.
 fn resolved_text(setup: &RunSetup, folder: &OutputFolder) -> String {
+    // A case is written as the scenario that has it: its values are those that controllers do not know.
+    let scenario = setup.uncertain_case.as_ref().map_or(&setup.scenario, |case| &case.scenario);
     let of_robot = setup.overrides.iter().filter(|change| change.starts_with("robot."));
     let set: Vec<String> = of_robot.map(|change| format!(" --set '{change}'")).collect();
-    let scenario = resolved(setup, folder).to_toml();
+    let scenario = relative_to(scenario, folder).to_toml();
     if set.is_empty() {
         return scenario;
     }
@@ -181,9 +183,9 @@ fn resolved_text(setup: &RunSetup, folder: &OutputFolder) -> String {
 }
 
 /// The scenario with every default, and its files by their paths from the results: nobody else has the folders of this machine.
-fn resolved(setup: &RunSetup, folder: &OutputFolder) -> Scenario {
+fn relative_to(scenario: &Scenario, folder: &OutputFolder) -> Scenario {
     let place = folder.path().canonicalize();
-    place.map_or_else(|_| setup.scenario.clone(), |place| setup.scenario.relative_to(&place))
+    place.map_or_else(|_| scenario.clone(), |place| scenario.relative_to(&place))
 }
 
 /// The files that take samples; the trajectory is completed before the page, which links to files that are there.
@@ -210,7 +212,7 @@ pub fn record(
     mut run: Run<'_>,
     formats: &[&dyn RecordingFormat],
     folder: &OutputFolder,
-    explain: impl FnOnce(&mut Run<'_>, &mut Outcome) -> Causes,
+    explain: impl FnOnce(&mut Run<'_>, &mut Outcome) -> AfterRun,
     progress: impl FnMut(u64),
 ) -> RecordedRun {
     let setup = run.setup();

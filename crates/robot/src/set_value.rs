@@ -1,8 +1,10 @@
 //! One value of a link or joint in place of the present one.
 
-use congruent_input::{Diagnostic, Override, known_names, rotation_from_rpy_fixed_xyz, rpy_fixed_xyz_rad};
+use congruent_input::{
+    Diagnostic, NumberAt, Override, known_names, rotation_from_rpy_fixed_xyz, rpy_fixed_xyz_rad,
+};
 
-use crate::{Inertia, Joint, JointRounding, Link, Robot};
+use crate::{Inertia, Joint, JointIndex, JointRounding, Link, LinkIndex, Robot};
 
 /// Keys of a link, as of `link.forearm_link.mass_kg`.
 const LINK_KEYS: [&str; 2] = ["mass_kg", "com_m"];
@@ -13,6 +15,70 @@ impl Robot {
     /// Whether a value is one of a link or joint (`link.NAME.KEY`), as [`Robot::with_value`] takes it.
     pub fn has_value(change: &Override) -> bool {
         matches!(change.path().next(), Some("link" | "joint"))
+    }
+
+    /// The numbers under a key of a link or joint: one, or three coordinates, each with a key of its own.
+    ///
+    /// # Errors
+    /// There is no such key, link or joint; the help has the nearest name.
+    pub fn numbers_at(&self, key: &Override) -> Result<Vec<NumberAt>, Diagnostic> {
+        let path: Vec<&str> = key.path().collect();
+        let written = path.join(".");
+        let (part, entry) = self.value_at(key)?;
+        let numbers: Vec<f64> = match part {
+            PartValue::Number(number) => vec![number],
+            PartValue::Coordinates(coordinates) => coordinates.into(),
+        };
+        let Some(entry) = entry else {
+            if let [number] = numbers[..] {
+                return Ok(vec![NumberAt { key: written, value: number }]);
+            }
+            let entries = (1..).zip(numbers);
+            return Ok(entries
+                .map(|(at, value): (usize, f64)| NumberAt { key: format!("{written}.{at}"), value })
+                .collect());
+        };
+        let at = entry.parse::<usize>().ok().and_then(|at| at.checked_sub(1));
+        let value = at.and_then(|at| numbers.get(at)).filter(|_| numbers.len() > 1);
+        let value = value.ok_or_else(|| key.refused(&format!("\"{entry}\" is no entry from 1 to 3")))?;
+        Ok(vec![NumberAt { key: written, value: *value }])
+    }
+
+    /// The present value under a key, and the entry of it that the key names.
+    fn value_at<'k>(&self, key: &'k Override) -> Result<(PartValue, Option<&'k str>), Diagnostic> {
+        let Place { kind, name, key: of, entry } = Place::new(key)?;
+        let found = if kind == "link" {
+            let link = self.link(self.named_link(key, name)?);
+            let inertia = link.inertia.as_ref().ok_or_else(|| key.refused("the link has no inertia"))?;
+            match of {
+                "mass_kg" => PartValue::Number(inertia.mass_kg),
+                "com_m" => PartValue::Coordinates(inertia.link_from_inertial.translation.vector.into()),
+                other => return Err(key.refused(&known_names(other, "keys of a link", LINK_KEYS))),
+            }
+        } else {
+            let joint = self.joint(self.named_joint(key, name)?);
+            let origin = &joint.parent_from_joint;
+            match of {
+                "damping" => PartValue::Number(joint.damping),
+                "friction" => PartValue::Number(joint.friction),
+                "armature" => PartValue::Number(joint.armature.unwrap_or(0.0)),
+                "xyz_m" => PartValue::Coordinates(origin.translation.vector.into()),
+                "rpy_rad" => PartValue::Coordinates(rpy_fixed_xyz_rad(origin)),
+                "rpy_deg" => PartValue::Coordinates(rpy_fixed_xyz_rad(origin).map(f64::to_degrees)),
+                other => return Err(key.refused(&known_names(other, "keys of a joint", JOINT_KEYS))),
+            }
+        };
+        Ok((found, entry))
+    }
+
+    fn named_link(&self, key: &Override, name: &str) -> Result<LinkIndex, Diagnostic> {
+        let names = self.links().iter().map(|link| link.name.as_str());
+        self.find_link(name).ok_or_else(|| unknown(key, "link", name, names))
+    }
+
+    fn named_joint(&self, key: &Override, name: &str) -> Result<JointIndex, Diagnostic> {
+        let names = self.joints().iter().map(|joint| joint.name.as_str());
+        self.find_joint(name).ok_or_else(|| unknown(key, "joint", name, names))
     }
 
     /// The robot with one value of a link or joint replaced.
@@ -27,21 +93,14 @@ impl Robot {
     /// # Errors
     /// There is no such key, link or joint, or the value is of another kind; the help has the nearest name.
     pub fn with_value(&self, change: &Override) -> Result<Self, Diagnostic> {
-        let path: Vec<&str> = change.path().collect();
-        let (kind, name, key, entry) = match path[..] {
-            [kind, name, key] => (kind, name, key, None),
-            [kind, name, key, entry] => (kind, name, key, Some(entry)),
-            _ => return Err(change.refused("expected link.NAME.KEY or joint.NAME.KEY")),
-        };
+        let Place { kind, name, key, entry } = Place::new(change)?;
         let set = SetValue { change, key, entry };
         if kind == "link" {
-            let names = self.links().iter().map(|link| link.name.as_str());
-            let link = self.find_link(name).ok_or_else(|| unknown(change, "link", name, names))?;
+            let link = self.named_link(change, name)?;
             let changed = set.in_link(self.link(link)).map_err(|why| change.refused(&why))?;
             return Ok(self.clone().with_inertia(link, changed));
         }
-        let names = self.joints().iter().map(|joint| joint.name.as_str());
-        let joint = self.find_joint(name).ok_or_else(|| unknown(change, "joint", name, names))?;
+        let joint = self.named_joint(change, name)?;
         let changed = set.in_joint(self.joint(joint)).map_err(|why| change.refused(&why))?;
         Ok(self.with_joints(|each| {
             if each.name == name {
@@ -49,6 +108,32 @@ impl Robot {
             }
         }))
     }
+}
+
+/// The parts of a key: `link.NAME.com_m.1`.
+struct Place<'a> {
+    kind: &'a str,
+    name: &'a str,
+    key: &'a str,
+    /// Counts a coordinate from 1.
+    entry: Option<&'a str>,
+}
+
+impl<'a> Place<'a> {
+    fn new(key: &'a Override) -> Result<Self, Diagnostic> {
+        let path: Vec<&str> = key.path().collect();
+        match path[..] {
+            [kind, name, of] => Ok(Self { kind, name, key: of, entry: None }),
+            [kind, name, of, entry] => Ok(Self { kind, name, key: of, entry: Some(entry) }),
+            _ => Err(key.refused("expected link.NAME.KEY or joint.NAME.KEY")),
+        }
+    }
+}
+
+/// A value of a link or joint.
+enum PartValue {
+    Number(f64),
+    Coordinates([f64; 3]),
 }
 
 /// A value for a key of a link or joint; `entry` counts a coordinate from 1.

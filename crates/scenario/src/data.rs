@@ -14,6 +14,7 @@ use super::{
     robot::{ControllerSettings, JointSettings, PayloadSettings, SensorSettings},
     source::SourceSettings,
     spaces::{ObstacleSettings, ZoneSettings},
+    uncertainty::UncertaintySettings,
 };
 
 /// The one version of the format that exists.
@@ -92,6 +93,9 @@ pub struct Scenario {
     /// The checks of the run, with their limits.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub check: Vec<Check>,
+    /// Values that are not known exactly: the checks must hold in cases with other values, too.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub uncertainty: Option<UncertaintySettings>,
     /// Files that are written in addition to the report and the recording.
     #[serde(default, skip_serializing_if = "OutputSettings::is_default")]
     pub output: OutputSettings,
@@ -122,6 +126,7 @@ impl Default for Scenario {
             zone: Vec::new(),
             fault: Vec::new(),
             check: Vec::new(),
+            uncertainty: None,
             output: OutputSettings::default(),
             expect: Expectation::default(),
         }

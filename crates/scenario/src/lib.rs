@@ -22,6 +22,7 @@ mod source;
 mod source_text;
 mod spaces;
 mod text;
+mod uncertainty;
 
 pub use bodies::{GraspSettings, PathPoseSettings};
 pub use checks::{
@@ -46,7 +47,7 @@ pub use number::Range;
 pub use output::{OutputSettings, TrajectoryFormat};
 pub use place::{FilePlace, mark};
 pub use pose::PoseSettings;
-pub use reading::{ScenarioFile, robot_overrides, scenario_name};
+pub use reading::{ScenarioFile, robot_overrides, scenario_name, written_numbers};
 pub use robot::{
     CONTROLLER_KINDS, ControllerKind, ControllerSettings, JointNumbers, JointSettings, OTHERS,
     PayloadInertia, PayloadSettings, SensorSettings, VelocitySensor,
@@ -57,3 +58,6 @@ pub use source::{
     SourceSettings,
 };
 pub use spaces::{CylinderSettings, ObstacleSettings, ZoneSettings};
+pub use uncertainty::{
+    CaseSampling, NormalSettings, USUAL_CONFIDENCE, UncertaintySettings, VariedKeys, VarySettings,
+};

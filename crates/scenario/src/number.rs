@@ -13,6 +13,8 @@ pub enum Range {
     NonNegative,
     /// 0 to 1.
     Share,
+    /// Above 0 and below 1.
+    InnerShare,
 }
 
 impl Range {
@@ -24,6 +26,7 @@ impl Range {
                 Self::Positive => value > 0.0,
                 Self::NonNegative => value >= 0.0,
                 Self::Share => (0.0..=1.0).contains(&value),
+                Self::InnerShare => value > 0.0 && value < 1.0,
             }
     }
 
@@ -34,6 +37,7 @@ impl Range {
             Self::Positive => "a finite number above 0",
             Self::NonNegative => "a finite number, 0 or above",
             Self::Share => "a number from 0 to 1",
+            Self::InnerShare => "a number between 0 and 1, without both",
         }
     }
 
@@ -64,6 +68,18 @@ impl Range {
 /// For `deserialize_with`: a share, if it is there.
 pub(crate) fn optional_share<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
     Range::Share.read(deserializer).map(Some)
+}
+
+/// For `deserialize_with`: a share without its ends.
+pub(crate) fn inner_share<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    Range::InnerShare.read(deserializer)
+}
+
+/// For `deserialize_with`: a share without its ends, if it is there.
+pub(crate) fn optional_inner_share<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<Option<f64>, D::Error> {
+    inner_share(deserializer).map(Some)
 }
 
 /// For `deserialize_with`: a number, not infinite and not NaN.

@@ -60,6 +60,10 @@ pub fn check(scenario: &Scenario) -> Vec<Diagnostic> {
     }
     for check in &scenario.check {
         numbers.limits(check);
+        numbers.check_optional("check.passing", check.passing(), Range::InnerShare);
+    }
+    if let Some(uncertainty) = &scenario.uncertainty {
+        numbers.one("uncertainty.confidence", uncertainty.confidence, Range::InnerShare);
     }
     numbers.0
 }

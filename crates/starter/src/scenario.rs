@@ -229,6 +229,7 @@ fn add_distance_checks(
         minimum_mm: None,
         pairs: Vec::new(),
         ignore: ignored.clone(),
+        passing: None,
         on_violation: OnViolation::default(),
     };
     let contact = ContactCheck { ignore: ignored, ..ContactCheck::default() };

@@ -52,5 +52,6 @@ fn rows_on_two_threads(bencher: divan::Bencher<'_, '_>) {
     let plan = plan();
     let runner = CaseRunner::new(&plan, FileAccess::default());
     let interrupt = AtomicBool::new(false);
-    bencher.bench_local(|| run_cases(&runner, 0..CASES, 2, &interrupt, |_| Ok::<(), ()>(())));
+    let run = |case: u64| runner.run(case, &interrupt);
+    bencher.bench_local(|| run_cases(0..CASES, 2, &interrupt, run, |_| Ok::<(), ()>(())));
 }

@@ -24,6 +24,8 @@ congruent_input::codes! {
             "A file of the sweep cannot be written. The message has the reason of the system: often the disk is full, or the folder belongs to another user.\n    congruent sweep run plan.sweep.toml --out results";
         REQUIREMENT = "CGR-SWEEP-012", "sweep::requirement",
             "[require] asks for what no sample shows: a share or a confidence that is not between 0 and 1, or a share of a grid, whose cases are chosen and not drawn.\n    wrong: passing = 1.0\n    right: passing = 0.99";
+        NO_FILE = "CGR-SWEEP-013", "sweep::no_file",
+            "A scenario with [uncertainty] is read once for each case, and came from standard input or was made in code.\n    congruent run uncertain.toml";
         MISSING = "CGR-SWEEP-010", "sweep::missing",
             "Not all cases of the plan have a row, so there is no table of all. Run the missing ones, or merge what there is with --partial.\n    congruent sweep run plan.sweep.toml --out results --resume";
     }

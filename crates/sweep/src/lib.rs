@@ -10,4 +10,4 @@ mod sampling;
 pub mod store;
 pub mod summary;
 
-pub use sampling::CaseSampling;
+pub use congruent_scenario::CaseSampling;

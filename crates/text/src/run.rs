@@ -5,8 +5,12 @@ use std::fmt::Write;
 use congruent_fault_diagnosis::RunDiagnosis;
 use congruent_input::display::quantity;
 use congruent_monitors::verdict::CheckResult;
-use congruent_results::report::{RunReport, lines, verdict_line};
+use congruent_results::report::{
+    RunReport, UncertaintyReport, case_lines, cases_title, lines, unfinished_words, verdict_line,
+};
 use congruent_twin::source::ActuatorUse;
+
+use super::layout::paragraph;
 
 /// What `congruent run` prints of a scenario, except for the folder of its results: the verdict, then motions and checks,
 /// those that failed first, then faults and their diagnosis.
@@ -39,6 +43,13 @@ pub fn run_text(report: &RunReport) -> String {
     for (index, held_back) in report.actuators.iter().filter_map(held_back).enumerate() {
         let _ = writeln!(text, "  {:10} {:7} {held_back}", if index == 0 { "actuators" } else { "" }, "");
     }
+    if let Some(cases) = &report.uncertainty {
+        in_cases(&mut text, report, cases);
+    }
+    if let Some(case) = &report.case {
+        let values: Vec<String> = case.values.iter().map(|of| format!("{} = {}", of.key, of.value)).collect();
+        text += &paragraph(&format!("case {}: {}", case.case, values.join(", ")), 2, 4);
+    }
     for fault in &report.faults {
         let _ = writeln!(text, "  {:10} {:7} {}", "injected", "", fault.sentence());
     }
@@ -58,9 +69,29 @@ fn length_of(report: &RunReport) -> String {
     }
 }
 
+/// What all cases show: first those checks that do not hold in as many as they must.
+fn in_cases(text: &mut String, report: &RunReport, cases: &UncertaintyReport) {
+    *text += &paragraph(&cases_title(cases), 2, 4);
+    for check in cases.checks_failed_first() {
+        let status = check.requirement.verdict.status_word();
+        labelled(text, [check.check.word(), status], &case_lines(check));
+    }
+    for line in unfinished_words(cases) {
+        *text += &paragraph(&line, 2, 4);
+    }
+    if let Some(command) = report.command_of_case() {
+        let _ = writeln!(text, "  to see the first case that fails: {command}");
+    }
+}
+
 fn checked(text: &mut String, check: &CheckResult) {
-    for (index, line) in lines(check).iter().enumerate() {
-        let (kind, status) = if index == 0 { (check.check.word(), check.status.word()) } else { ("", "") };
+    labelled(text, [check.check.word(), check.status.word()], &lines(check));
+}
+
+/// Lines behind a kind and a status, which the first has.
+fn labelled(text: &mut String, label: [&str; 2], lines: &[String]) {
+    for (index, line) in lines.iter().enumerate() {
+        let [kind, status] = if index == 0 { label } else { [""; 2] };
         let _ = writeln!(text, "  {kind:10} {status:7} {line}");
     }
 }

@@ -3,9 +3,10 @@
 use std::fmt::Write;
 
 use congruent_input::display::{counted, number};
+use congruent_results::report::requirement_sentence;
 use congruent_sweep::{
     store::SweepProgress,
-    summary::{KeyImportance, MeasureSummary, RequirementResult, RequirementVerdict, SweepSummary},
+    summary::{KeyImportance, MeasureSummary, SweepSummary},
 };
 
 use super::layout::{Table, paragraph};
@@ -32,7 +33,7 @@ pub fn sweep_text(summary: &SweepSummary, folder: &str) -> String {
         let _ = writeln!(text, "  {} cases of the plan have no row yet", summary.missing);
     }
     if let Some(requirement) = &summary.requirement {
-        text += &paragraph(&required(requirement), 2, 4);
+        text += &paragraph(&requirement_sentence(requirement), 2, 4);
     }
     quantities(&mut text, summary);
     worst(&mut text, summary);
@@ -42,33 +43,6 @@ pub fn sweep_text(summary: &SweepSummary, folder: &str) -> String {
     let _ = writeln!(text, "  rows: SHA-256 {}", summary.table_sha256);
     let _ = writeln!(text, "  {folder}/index.html, cases.csv, cases.parquet, sweep_summary.json");
     text
-}
-
-/// Whether enough cases pass: `MET: at least 94.4 % of all cases pass, with confidence 95 %; 90 % are required`.
-fn required(requirement: &RequirementResult) -> String {
-    let percent = |share: f64| format!("{} %", number(100.0 * share));
-    let RequirementResult { passing, confidence, interval: [lower, upper], .. } = requirement;
-    let (wanted, known) = (percent(*passing), percent(*confidence));
-    match requirement.verdict {
-        RequirementVerdict::Met => format!(
-            "requirement MET: at least {} of all cases pass, with confidence {known}; {wanted} are required",
-            percent(*lower)
-        ),
-        RequirementVerdict::NotMet => format!(
-            "requirement NOT MET: at most {} of all cases pass, with confidence {known}; {wanted} are required",
-            percent(*upper)
-        ),
-        RequirementVerdict::NotEnoughCases => {
-            let more = requirement
-                .cases_needed
-                .map_or_else(String::new, |cases| format!("; some {cases} cases would answer"));
-            format!(
-                "NOT ENOUGH CASES: between {} and {} of all cases pass, each bound with confidence {known}; {wanted} are required{more}",
-                percent(*lower),
-                percent(*upper)
-            )
-        }
-    }
 }
 
 /// Verdicts other than `pass`, in words.

@@ -6,7 +6,7 @@ use std::{
 };
 
 use congruent::{
-    SweepError,
+    PreparedScenario, SweepError,
     description::load_robot_with,
     input::Diagnostic,
     joint_sweep,
@@ -119,7 +119,7 @@ fn scenario(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     printer.warnings(None, &setup.warnings);
     let options =
         Options { out: arguments.out.clone(), recordings: vec![&RerunFormat, &PageFormat], interrupt: None };
-    let ran = run_one(&setup, &options, &ProgressLines::new(printer))?;
+    let ran = run_one(&PreparedScenario::without_cases(setup), &options, &ProgressLines::new(printer))?;
     printer.result(&ran, BatchReport::text)?;
     let code = ran.exit_code();
     let Ok(folder) = &ran.results else { return Ok(code) };

@@ -31,7 +31,8 @@ pub(crate) struct Arguments {
     /// cover all scenarios.
     #[arg(long)]
     pub(super) resume: bool,
-    /// Number of scenarios that run at once; by default the number of cores. The results do not depend on it.
+    /// Number of scenarios, or of cases of one, that run at once; by default the number of cores. The results do not depend on
+    /// it.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     jobs: Option<u16>,
     /// Replace a value of all scenarios, for example controller.stiffness=500 or check.1.position_m=1e-6.
@@ -119,6 +120,11 @@ impl Arguments {
     pub(super) fn threads(&self, scenarios: usize) -> usize {
         let cores = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
         self.jobs.map_or_else(cores, usize::from).min(scenarios)
+    }
+
+    /// Number of threads for the cases of each of so many scenarios that run at once.
+    pub(super) fn case_threads(&self, scenarios: usize) -> usize {
+        (self.threads(usize::MAX) / scenarios.max(1)).max(1)
     }
 
     pub(super) fn overrides(&self) -> Vec<Override> {

@@ -8,7 +8,7 @@ use std::{
 use congruent::{
     input::Diagnostic,
     monitors::NoRecorder,
-    results::report::{Causes, FaultTable, RunReport, diagnose_run},
+    results::report::{AfterRun, FaultTable, RunReport, diagnose_run},
     text::fault_table_text,
     twin::{Run, RunSetup},
 };
@@ -72,7 +72,7 @@ fn report(setup: &RunSetup, progress: &RunProgress) -> Result<RunReport, Failure
     let mut run = Run::new(setup).map_err(|error| refused(&error))?;
     let sources = run.model().sources().to_vec();
     let (outcome, result) = run.finish(&mut setup.checks(), &mut NoRecorder, |steps| progress.steps(steps));
-    let causes = Causes::from_samples(diagnose_run(&mut run, &outcome));
+    let causes = AfterRun::from_samples(diagnose_run(&mut run, &outcome));
     Ok(RunReport::new(setup, &sources, outcome, causes, result.as_ref().err()))
 }
 

@@ -79,7 +79,10 @@ fn run_all(
                 LoadedScenario::New(_) if is_interrupted() => {
                     Err(Failure::Machine("interrupted before it started".to_owned()))
                 }
-                LoadedScenario::New(setup) => run_one(&setup, options, progress),
+                LoadedScenario::New(mut scenario) => {
+                    scenario.case_threads = arguments.case_threads(jobs);
+                    run_one(&scenario, options, progress)
+                }
             });
             batch.keep(index, &answer);
             progress.suspended(|| batch.report(&answer));

@@ -6,6 +6,7 @@ use std::{
 };
 
 use congruent::{
+    PreparedScenario,
     input::{Diagnostic, Override, is_standard_input, not_found},
     results::{
         Options,
@@ -29,7 +30,7 @@ use crate::{
 /// A scenario that was read.
 pub(super) enum LoadedScenario {
     /// The scenario must run.
-    New(Box<RunSetup>),
+    New(Box<PreparedScenario>),
     /// The scenario has finished in an earlier call: its report and the folder of its results.
     Finished(Box<RunReport>, PathBuf),
 }
@@ -38,7 +39,7 @@ impl LoadedScenario {
     /// The suite of the JUnit file until the scenario has run.
     pub(super) fn suite(&self) -> TestSuite {
         match self {
-            Self::New(setup) => planned_suite(setup),
+            Self::New(scenario) => planned_suite(&scenario.setup),
             Self::Finished(report, _) => report.test_suite(),
         }
     }
@@ -73,6 +74,8 @@ pub(super) fn load(
         let setup = RunSetup::load_with(path, &overrides, &access).and_then(RunSetup::for_simulation);
         let setup =
             setup.inspect_err(|_| note_older_results(path, &overrides, &arguments.out, batch.printer()))?;
+        let scenario = PreparedScenario::new(setup, &access)?;
+        let setup = &scenario.setup;
         let folder = OutputFolder::path_for(&arguments.out, &setup.scenario.name);
         if let Some(first) = folders.get(&folder) {
             return Err(same_folder(&folder, first, path).into());
@@ -82,7 +85,7 @@ pub(super) fn load(
         let inputs: Vec<PathBuf> = setup.inputs.iter().map(|input| input.path.clone()).collect();
         batch.reads(&inputs)?;
         batch.writes(&results)?;
-        let earlier = arguments.resume.then(|| finished(&setup, options)).flatten();
+        let earlier = arguments.resume.then(|| finished(setup, options)).flatten();
         if earlier.is_none() {
             OutputFolder::create(&arguments.out, &setup.scenario.name, &setup.inputs).map_err(no_folder)?;
         }
@@ -90,7 +93,7 @@ pub(super) fn load(
         batch.warn(path, &setup.warnings);
         Ok(match earlier {
             Some((report, folder)) => LoadedScenario::Finished(Box::new(report), folder),
-            None => LoadedScenario::New(Box::new(setup)),
+            None => LoadedScenario::New(Box::new(scenario)),
         })
     };
     if arguments.scenarios.len() > 1 {

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use congruent::{
+    PreparedScenario,
     input::{Diagnostic, display::listed},
     monitors::verdict::Status,
     results::{
@@ -13,7 +14,6 @@ use congruent::{
     },
     run_scenario,
     text::run_text,
-    twin::RunSetup,
 };
 use serde::{Serialize, Serializer};
 
@@ -84,12 +84,13 @@ impl BatchReport for RunAnswer {
 
 /// Runs a scenario and writes its results.
 pub(crate) fn run_one(
-    setup: &RunSetup,
+    scenario: &PreparedScenario,
     options: &Options<'_>,
     progress: &ProgressLines,
 ) -> Result<RunAnswer, Failure> {
+    let setup = &scenario.setup;
     let progress = progress.start_run(setup);
-    match run_scenario(setup, options, |steps| progress.steps(steps)) {
+    match run_scenario(scenario, options, &|stage| progress.stage(stage)) {
         Ok((report, folder)) => {
             let missing = missing_files(setup, options, &folder);
             Ok(RunAnswer { report, results: Ok(folder.path().to_owned()), missing, is_kept: false })

@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 
 use congruent::{
     input::Diagnostic,
-    results::files::write_whole,
+    results::{files::write_whole, report::RequirementVerdict},
     sweep::{
         codes,
         plan::SweepPlan,
         run::CaseRunner,
         store::{CASES_CSV, CASES_PARQUET, MergedTable, SweepFolder, SweepHeader, write_tables},
-        summary::{RequirementVerdict, SweepSummary},
+        summary::SweepSummary,
     },
     text::sweep_text,
 };

@@ -118,10 +118,12 @@ impl Arguments {
         let take = |row: CaseRow| {
             writer.write(&row)?;
             ran += 1;
-            progress.steps(ran);
+            progress.cases(ran);
             Ok::<(), Diagnostic>(())
         };
-        let written = run_cases(runner, cases, self.threads(count), &flag_of_signals(), take);
+        let interrupt = flag_of_signals();
+        let run = |case: u64| runner.run(case, &interrupt);
+        let written = run_cases(cases, self.threads(count), &interrupt, run, take);
         written
             .map_err(|error| Failure::Machine(format!("{}; --resume goes on from here", error.message)))?;
         Ok(ran)

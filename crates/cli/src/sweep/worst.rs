@@ -3,6 +3,7 @@
 use std::{path::Path, sync::atomic::Ordering};
 
 use congruent::{
+    PreparedScenario,
     input::{Diagnostic, Override},
     page::PageFormat,
     results::{Options, RecordingFormat},
@@ -42,7 +43,7 @@ pub(super) fn run_worst(
         let mut overrides = case.overrides;
         overrides.push(Override::name(&name));
         let setup = runner.setup_with(&overrides)?;
-        let ran = match run_one(&setup, &options, &progress) {
+        let ran = match run_one(&PreparedScenario::without_cases(setup), &options, &progress) {
             Ok(ran) => ran,
             // As of another call that merges the same folder: the rows are right all the same.
             Err(failure) => {

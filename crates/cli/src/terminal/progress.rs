@@ -7,7 +7,7 @@ use std::{
     time::Duration,
 };
 
-use congruent::twin::RunSetup;
+use congruent::{RunStage, twin::RunSetup};
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 
 use super::print::Printer;
@@ -76,10 +76,8 @@ impl ProgressLines {
 
     /// The line of a sweep with so many cases.
     pub(crate) fn start_cases(&self, name: &str, cases: u64) -> RunProgress {
-        let style = ProgressStyle::with_template("{prefix:20!} {bar:18} {pos}/{len} cases {eta:>5} left")
-            .unwrap_or_else(|_| ProgressStyle::default_bar());
         let bar = |bars: &MultiProgress| {
-            bars.add(ProgressBar::new(cases).with_style(style).with_prefix(name.to_owned()))
+            bars.add(ProgressBar::new(cases).with_style(style_of_cases()).with_prefix(name.to_owned()))
         };
         RunProgress(self.0.as_ref().map(bar))
     }
@@ -93,7 +91,31 @@ impl ProgressLines {
     }
 }
 
+fn style_of_cases() -> ProgressStyle {
+    ProgressStyle::with_template("{prefix:20!} {bar:18} {pos}/{len} cases {eta:>5} left")
+        .unwrap_or_else(|_| ProgressStyle::default_bar())
+}
+
 impl RunProgress {
+    /// A run is so far; its cases, if it has some, have the line after its steps.
+    pub(crate) fn stage(&self, stage: RunStage) {
+        match stage {
+            RunStage::Steps(steps) => self.steps(steps),
+            RunStage::Cases { ran, of } => {
+                if let Some(bar) = &self.0 {
+                    bar.set_style(style_of_cases());
+                    bar.set_length(of);
+                    bar.set_position(ran);
+                }
+            }
+        }
+    }
+
+    /// So many cases have run.
+    pub(crate) fn cases(&self, ran: u64) {
+        self.0.iter().for_each(|bar| bar.set_position(ran));
+    }
+
     /// So many steps are done.
     pub(crate) fn steps(&self, steps: u64) {
         if let Some(bar) = self.0.as_ref().filter(|_| steps.is_multiple_of(STEPS_A_TICK)) {

@@ -7,6 +7,7 @@ pub(crate) mod digits;
 pub(crate) mod name;
 pub mod number;
 mod number_mistake;
+pub(crate) mod numbers_at;
 pub(crate) mod overrides;
 pub(crate) mod rpy;
 pub(crate) mod serde_message;

@@ -36,6 +36,8 @@ pub struct Override {
     written: String,
     /// `value = ...`, as TOML.
     document: String,
+    /// Whether it may replace a value that another one sets.
+    replaces: bool,
 }
 
 impl std::str::FromStr for Override {
@@ -63,7 +65,7 @@ impl std::str::FromStr for Override {
         toml_text::parse_document(&document).map_err(|fault| {
             Diagnostic::error(codes::cli::SET, format!("--set \"{text}\": {}", fault.message))
         })?;
-        Ok(Self { path, written: text.to_owned(), document })
+        Ok(Self { path, written: text.to_owned(), document, replaces: false })
     }
 }
 
@@ -129,7 +131,7 @@ impl Override {
     /// An override of the scenario's seed.
     pub fn seed(seed: u64) -> Self {
         let written = format!("seed={seed}");
-        Self { path: vec!["seed".to_owned()], written, document: format!("value = {seed}") }
+        Self { path: vec!["seed".to_owned()], written, document: format!("value = {seed}"), replaces: false }
     }
 
     /// An override of the scenario's name, which is also that of the folder of its results.
@@ -139,6 +141,7 @@ impl Override {
             path: vec!["name".to_owned()],
             written: format!("name={name}"),
             document: format!("value = {value}"),
+            replaces: false,
         }
     }
 
@@ -250,6 +253,17 @@ impl Override {
                 Err(self.refused("the file has no such key; write it there with its present value first"))
             }
         }
+    }
+
+    /// The same as a value of a case, which replaces the one that all cases have.
+    #[must_use]
+    pub fn replacing(self) -> Self {
+        Self { replaces: true, ..self }
+    }
+
+    /// Whether both could be meant for one value: of a value that all cases have and that of a case, the latter is meant.
+    pub fn excludes(&self, other: &Self) -> bool {
+        self.replaces == other.replaces
     }
 
     /// Whether both replace the same value.

@@ -31,7 +31,7 @@ pub(crate) fn outcome(report: &RunReport) -> (BadgeKind, &'static str) {
     let outcome = match report.verdict {
         Verdict::AsExpected => BadgeKind::Good,
         Verdict::NotAsExpected | Verdict::Broken => BadgeKind::Bad,
-        Verdict::NothingChecked => BadgeKind::Unclear,
+        Verdict::NothingChecked | Verdict::NotEnoughCases => BadgeKind::Unclear,
     };
     (outcome, verdict_word(report.verdict))
 }

@@ -1,6 +1,7 @@
 //! The page of a run.
 
 mod actuators;
+mod cases;
 mod checks;
 mod content;
 mod curves;

@@ -8,6 +8,7 @@ use maud::{Markup, html};
 
 use super::{
     actuators::actuators,
+    cases::cases,
     checks::checks,
     content::RunContent,
     failures::what_failed,
@@ -30,11 +31,13 @@ pub(super) fn run_page(report: &RunReport, run: &RunContent, folder: &Path) -> S
             (what_failed(report, run, &plots.failed))
             (causes(report))
             (checks(report, run))
+            (cases(report))
             (run.events.section(report))
             (folded("Everything else over time", &plots.others()))
             (folded("All joints", &joints(run, &plots.plots)))
         } @else {
             (checks(report, run))
+            (cases(report))
             (causes(report))
             section { h2 { "The arm" } (scene(report, run)) }
             (run.events.section(report))

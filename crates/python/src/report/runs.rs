@@ -6,6 +6,7 @@ use std::{
 };
 
 use congruent::{
+    PreparedScenario,
     input::{Diagnostic, Findings, Override},
     page::PageFormat,
     recording::RerunFormat,
@@ -97,11 +98,13 @@ fn execute_scenario(
     out: Option<&Path>,
     interrupt: &AtomicBool,
 ) -> Result<Ran, RunFailure> {
-    let setup = RunSetup::load_with(scenario, overrides, &access()?)?;
+    let access = access()?;
+    let setup = RunSetup::load_with(scenario, overrides, &access)?;
     let mut setup = setup.for_simulation()?;
     // The series are read from a table of the run, also if the scenario asks for a log.
     let asked = *setup.scenario.output.trajectory.get_or_insert(TrajectoryFormat::Parquet);
     let table = if asked == TrajectoryFormat::Mcap { TrajectoryFormat::Parquet } else { asked };
+    let scenario = PreparedScenario::new(setup, &access)?;
     let temporary = tempfile::tempdir().map_err(RunFailure::machine)?;
     // Without a folder nothing is kept, so what only people look at is not written.
     let for_people: &[&dyn RecordingFormat] = if out.is_some() { &[&RerunFormat, &PageFormat] } else { &[] };
@@ -112,7 +115,7 @@ fn execute_scenario(
         interrupt: Some(interrupt),
     };
     let (report, folder) =
-        congruent::run_scenario(&setup, &options, |_| {}).map_err(|error| match error {
+        congruent::run_scenario(&scenario, &options, &|_| {}).map_err(|error| match error {
             error @ ExecuteError::CannotRun { .. } => {
                 let finding = Diagnostic::error(congruent::codes::run::CANNOT_RUN, error.to_string());
                 RunFailure::Input(finding.into())

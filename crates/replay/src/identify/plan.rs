@@ -268,6 +268,7 @@ fn scenario(
         minimum_mm: None,
         pairs: Vec::new(),
         ignore: Vec::new(),
+        passing: None,
         on_violation: OnViolation::default(),
     };
     Scenario {

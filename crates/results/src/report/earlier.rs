@@ -3,7 +3,7 @@
 use congruent_agreement::compare::PoseSource;
 use congruent_twin::{Outcome, RunSetup};
 
-use super::{causes::Causes, run_report::RunReport};
+use super::{after_run::AfterRun, run_report::RunReport};
 
 /// The report in this file, if it is that of a finished run of the same inputs, values and versions.
 ///
@@ -23,6 +23,7 @@ pub fn earlier_report(setup: &RunSetup, file: &[u8]) -> Option<RunReport> {
         trajectory_sha256: read.trajectory_sha256,
     };
     let sources: Vec<PoseSource> = read.links.iter().map(|link| link.source).collect();
-    let report = RunReport::new(setup, &sources, outcome, Causes::from_samples(read.diagnosis), None);
+    let after = AfterRun { cases: read.uncertainty, ..AfterRun::from_samples(read.diagnosis) };
+    let report = RunReport::new(setup, &sources, outcome, after, None);
     (report.to_json().ok()? == file).then_some(report)
 }

@@ -1,8 +1,9 @@
 //! Results of a run for programs: `report.json` has everything, `junit.xml`, annotations and the summary the checks in the
 //! formats of CI.
 
+mod after_run;
 mod annotations;
-mod causes;
+mod cases;
 mod earlier;
 mod fault_table;
 mod junit;
@@ -15,8 +16,13 @@ mod suite;
 mod test_suite;
 mod verdict_sentence;
 
+pub use after_run::{AfterRun, diagnose_run, explain};
 pub use annotations::github_annotations;
-pub use causes::{Causes, diagnose_run, explain};
+pub use cases::{
+    CaseChecks, CheckInCases, PassingShare, QuantityInCases, RequirementResult, RequirementVerdict,
+    UncertaintyReport, UnfinishedCase, VariedValue, case_lines, cases_title, requirement_sentence,
+    unfinished_words,
+};
 pub use earlier::earlier_report;
 pub use fault_table::{DetectedBy, FaultRow, FaultTable};
 pub use junit::write_junit;

@@ -6,12 +6,13 @@ use congruent_input::{Finding, InputFile, portable_text};
 use congruent_monitors::verdict::{CheckResult, RunStop, Status, Verdict, judge};
 use congruent_motion::{ServoResult, SlowedMotion};
 use congruent_scenario::{Expectation, RunFault};
-use congruent_twin::{Outcome, RunError, RunSetup, source::ActuatorUse};
+use congruent_twin::{CaseValue, Outcome, RunError, RunSetup, source::ActuatorUse};
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize, de::IgnoredAny};
 
 use super::{
-    causes::Causes,
+    after_run::AfterRun,
+    cases::{RequirementVerdict, UncertaintyReport, uncertainty_sentence},
     portable::{portable, portable_diagnosis, portable_finding},
     source_report::SourceReport,
     verdict_sentence::verdict_sentence,
@@ -41,6 +42,12 @@ pub struct RunReport {
     pub checks: Vec<CheckResult>,
     /// The check that ended the run early, and when: later steps were neither taken nor checked.
     pub stopped: Option<RunStop>,
+    /// The case of `[uncertainty]` that ran alone; left out for a scenario as it is written.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub case: Option<CaseOfRun>,
+    /// What the cases of `[uncertainty]` show; left out if the scenario has none, or if one of them ran alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub uncertainty: Option<UncertaintyReport>,
     /// The motions, one after another.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub motions: Vec<MotionTimes>,
@@ -86,6 +93,15 @@ pub struct RunReport {
 /// The causes of a failed agreement are written for people: no reader of a report needs them.
 fn not_read<'de, D: Deserializer<'de>, T>(value: D) -> Result<Vec<T>, D::Error> {
     IgnoredAny::deserialize(value).map(|_| Vec::new())
+}
+
+/// A case of `[uncertainty]` that ran alone.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct CaseOfRun {
+    /// Number of the case, from 0.
+    pub case: u64,
+    /// Its values, which controllers do not know.
+    pub values: Vec<CaseValue>,
 }
 
 /// The clock of a run.
@@ -156,13 +172,26 @@ fn motions(setup: &RunSetup, slowed: &[SlowedMotion]) -> Vec<MotionTimes> {
     kinds.zip(setup.trajectory.times()).map(times).collect()
 }
 
+/// The verdict of a run with that of its cases.
+fn with_cases(own: Verdict, cases: Option<&UncertaintyReport>) -> Verdict {
+    match cases {
+        Some(cases) if own == Verdict::AsExpected => match cases.verdict {
+            _ if !cases.is_whole() => Verdict::Broken,
+            RequirementVerdict::Met => Verdict::AsExpected,
+            RequirementVerdict::NotMet => Verdict::NotAsExpected,
+            RequirementVerdict::NotEnoughCases => Verdict::NotEnoughCases,
+        },
+        _ => own,
+    }
+}
+
 impl RunReport {
     /// The report of a run.
     pub fn new(
         setup: &RunSetup,
         sources: &[PoseSource],
         outcome: Outcome,
-        causes: Causes,
+        after: AfterRun,
         error: Option<&RunError>,
     ) -> Self {
         let robot = &setup.description.robot;
@@ -175,7 +204,11 @@ impl RunReport {
                 check.status = Status::Error; // it was not checked to the end
             }
         }
-        let verdict = if error.is_some() { Verdict::Broken } else { judge(&setup.scenario.expect, &checks) };
+        let verdict = if error.is_some() {
+            Verdict::Broken
+        } else {
+            with_cases(judge(&setup.scenario.expect, &checks), after.cases.as_ref())
+        };
         let links = robot.links().iter().zip(sources);
         let warnings = setup.description.warnings.iter().chain(&setup.warnings);
 
@@ -190,12 +223,17 @@ impl RunReport {
             expected: setup.scenario.expect.clone(),
             checks,
             stopped: outcome.stopped,
+            case: setup
+                .uncertain_case
+                .as_ref()
+                .map(|of| CaseOfRun { case: of.case, values: of.values.clone() }),
+            uncertainty: after.cases,
             motions: motions(setup, &outcome.slowed),
             servos: outcome.servos,
             actuators: outcome.actuators,
-            diagnoses: causes.poses.into_iter().map(portable_diagnosis).collect(),
+            diagnoses: after.poses.into_iter().map(portable_diagnosis).collect(),
             faults: setup.faults.iter().map(|fault| fault.described().clone()).collect(),
-            diagnosis: causes.samples,
+            diagnosis: after.samples,
             error: error.map(ToString::to_string),
             source: SourceReport::of(setup),
             simulation: RunClockReport {
@@ -229,8 +267,15 @@ impl RunReport {
 
     /// The reason for the verdict as a sentence.
     pub fn sentence(&self) -> String {
-        let results = self.checks.iter().map(|check| (check.check, check.status));
-        verdict_sentence(self.verdict, &self.expected, results)
+        let results = || self.checks.iter().map(|check| (check.check, check.status));
+        let own = judge(&self.expected, &self.checks);
+        match &self.uncertainty {
+            Some(cases) if self.error.is_none() && own == Verdict::AsExpected => {
+                let sentence = verdict_sentence(own, &self.expected, results());
+                uncertainty_sentence(&sentence, cases)
+            }
+            _ => verdict_sentence(self.verdict, &self.expected, results()),
+        }
     }
 
     /// The command that runs the same again.
@@ -241,6 +286,13 @@ impl RunReport {
         let seed = (!has_seed).then(|| format!("--seed {}", self.seed));
         let words = ["congruent run".to_owned(), file.to_owned()].into_iter();
         words.chain(self.overrides.iter().map(quoted)).chain(seed).collect::<Vec<_>>().join(" ")
+    }
+
+    /// The command that runs the first case of `[uncertainty]` in which a check fails, with page and recording.
+    pub fn command_of_case(&self) -> Option<String> {
+        let checks = self.uncertainty.as_ref()?.checks_failed_first();
+        let case = checks.into_iter().find_map(|check| check.first_failing)?;
+        Some(format!("{} --set uncertainty.case={case}", self.command()))
     }
 
     /// The checks, those that failed first.

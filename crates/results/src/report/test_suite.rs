@@ -7,6 +7,7 @@ use congruent_scenario::{CheckKind, Expectation};
 use congruent_twin::RunSetup;
 
 use super::{
+    cases::{CheckInCases, RequirementVerdict, case_lines},
     run_report::{RunClockReport, RunReport},
     sentence::lines,
     suite::{CasePlace, Clock, Reason, TestCase, TestResult, TestSuite},
@@ -17,6 +18,8 @@ impl RunReport {
     pub fn test_suite(&self) -> TestSuite {
         let checks = self.checks.iter().enumerate();
         let mut cases: Vec<TestCase> = checks.map(|(index, check)| self.case(index, check)).collect();
+        let in_cases = self.uncertainty.iter().flat_map(|cases| &cases.checks);
+        cases.extend(in_cases.map(|check| self.in_cases(check)));
         if self.verdict == Verdict::NothingChecked || self.error.is_some() {
             let message = match &self.error {
                 Some(error) => format!("{}: {error}", self.broken()),
@@ -40,6 +43,20 @@ impl RunReport {
     fn broken(&self) -> String {
         let RunClockReport { steps, duration_s, .. } = self.simulation;
         format!("the run failed at {} after {steps} steps", quantity(duration_s, "s"))
+    }
+
+    /// A check in all cases of `[uncertainty]`. Too few of them are an error: nothing is known.
+    fn in_cases(&self, check: &CheckInCases) -> TestCase {
+        let output = case_lines(check).join("\n");
+        let reason = || Reason { kind: check.check.word().to_owned(), message: output.clone() };
+        let result = match check.requirement.verdict {
+            RequirementVerdict::Met => TestResult::Passed,
+            RequirementVerdict::NotMet => TestResult::Failed(reason()),
+            RequirementVerdict::NotEnoughCases => TestResult::Error(reason()),
+        };
+        let place = CasePlace::if_known(self.scenario_file.as_deref(), check.line);
+        let name = case_name(check.number - 1, check.check, IN_CASES);
+        TestCase { name, result, output, place, further: Vec::new() }
     }
 
     fn case(&self, index: usize, check: &CheckResult) -> TestCase {
@@ -109,6 +126,9 @@ pub fn planned_suite(setup: &RunSetup) -> TestSuite {
 
 /// Added to the name of a check that the scenario does not give.
 const BY_DEFAULT: &str = "_default";
+
+/// Added to the name of a check in all cases of `[uncertainty]`.
+const IN_CASES: &str = "_in_cases";
 
 /// The name of a case: the number of the check in the scenario, from 1, and its kind.
 fn case_name(index: usize, kind: CheckKind, added: &str) -> String {

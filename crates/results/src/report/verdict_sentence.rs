@@ -10,6 +10,7 @@ pub fn verdict_word(verdict: Verdict) -> &'static str {
         Verdict::AsExpected => "pass",
         Verdict::NotAsExpected => "FAIL",
         Verdict::NothingChecked => "NOTHING CHECKED",
+        Verdict::NotEnoughCases => "NOT ENOUGH CASES",
         Verdict::Broken => "BROKEN",
     }
 }
@@ -51,8 +52,10 @@ pub fn verdict_sentence(
         }
         Verdict::NothingChecked => "no check of the scenario was evaluated: add a [[check]]".to_owned(),
         Verdict::Broken => "the run ended with an error".to_owned(),
-        Verdict::AsExpected if failed.is_empty() => count.passing("every check passes, as expected"),
-        Verdict::AsExpected => format!("{EXPECTED_FAILURE}{}", words(&failed)),
+        Verdict::AsExpected | Verdict::NotEnoughCases if failed.is_empty() => {
+            count.passing("every check passes, as expected")
+        }
+        Verdict::AsExpected | Verdict::NotEnoughCases => format!("{EXPECTED_FAILURE}{}", words(&failed)),
         Verdict::NotAsExpected if failed.is_empty() => {
             format!("unexpected pass: {}", count.passing("every check passed"))
         }

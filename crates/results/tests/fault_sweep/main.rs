@@ -195,6 +195,7 @@ fn scenario(fault: Option<FaultSettings>, description: &RobotDescription, draw: 
                 position_mm: Some(1.0),
                 orientation_rad: None,
                 orientation_deg: None,
+                passing: None,
                 on_violation: OnViolation::default(),
             }),
         ],

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::on_violation::OnViolation;
 use crate::{
-    number::{optional_positive, optional_share},
+    number::{optional_inner_share, optional_positive, optional_share},
     text::variant,
 };
 
@@ -17,6 +17,9 @@ pub struct DynamicsCheck {
     /// of a step: the physics integrates to first order.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub relative: Option<f64>,
+    /// Share of all possible cases of `[uncertainty]` in which the check must hold, below 1; default: in each case that runs.
+    #[serde(default, deserialize_with = "optional_inner_share", skip_serializing_if = "Option::is_none")]
+    pub passing: Option<f64>,
     /// What the run does at the first violation of the check.
     #[serde(default, deserialize_with = "variant")]
     pub on_violation: OnViolation,
@@ -35,6 +38,9 @@ pub struct EffortCheck {
     /// default 0.5.
     #[serde(default, deserialize_with = "optional_share", skip_serializing_if = "Option::is_none")]
     pub unexplained_share: Option<f64>,
+    /// Share of all possible cases of `[uncertainty]` in which the check must hold, below 1; default: in each case that runs.
+    #[serde(default, deserialize_with = "optional_inner_share", skip_serializing_if = "Option::is_none")]
+    pub passing: Option<f64>,
     /// What the run does at the first violation of the check.
     #[serde(default, deserialize_with = "variant")]
     pub on_violation: OnViolation,
@@ -48,6 +54,9 @@ pub struct PowerCheck {
     /// length of a step: the physics integrates to first order.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub relative: Option<f64>,
+    /// Share of all possible cases of `[uncertainty]` in which the check must hold, below 1; default: in each case that runs.
+    #[serde(default, deserialize_with = "optional_inner_share", skip_serializing_if = "Option::is_none")]
+    pub passing: Option<f64>,
     /// What the run does at the first violation of the check.
     #[serde(default, deserialize_with = "variant")]
     pub on_violation: OnViolation,

@@ -8,7 +8,7 @@ use super::{
     unit_keys::{UnitKeys, in_two_units},
 };
 use crate::{
-    number::{optional_non_negative, optional_positive, positive},
+    number::{optional_inner_share, optional_non_negative, optional_positive, positive},
     text::variant,
 };
 
@@ -46,6 +46,9 @@ pub struct LimitsCheck {
     /// Largest share of a joint's effort limit; default 1.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub effort_share: Option<f64>,
+    /// Share of all possible cases of `[uncertainty]` in which the check must hold, below 1; default: in each case that runs.
+    #[serde(default, deserialize_with = "optional_inner_share", skip_serializing_if = "Option::is_none")]
+    pub passing: Option<f64>,
     /// What the run does at the first violation of the check.
     #[serde(default, deserialize_with = "variant")]
     pub on_violation: OnViolation,
@@ -110,6 +113,9 @@ pub struct TrackingCheck {
     /// The same in millimetres.
     #[serde(default, deserialize_with = "optional_non_negative", skip_serializing_if = "Option::is_none")]
     pub overshoot_mm: Option<f64>,
+    /// Share of all possible cases of `[uncertainty]` in which the check must hold, below 1; default: in each case that runs.
+    #[serde(default, deserialize_with = "optional_inner_share", skip_serializing_if = "Option::is_none")]
+    pub passing: Option<f64>,
     /// What the run does at the first violation of the check.
     #[serde(default, deserialize_with = "variant")]
     pub on_violation: OnViolation,
@@ -134,6 +140,9 @@ pub struct CycleTimeCheck {
     /// The same in millimetres.
     #[serde(default, deserialize_with = "optional_non_negative", skip_serializing_if = "Option::is_none")]
     pub tolerance_mm: Option<f64>,
+    /// Share of all possible cases of `[uncertainty]` in which the check must hold, below 1; default: in each case that runs.
+    #[serde(default, deserialize_with = "optional_inner_share", skip_serializing_if = "Option::is_none")]
+    pub passing: Option<f64>,
     /// What the run does at the first violation of the check.
     #[serde(default, deserialize_with = "variant")]
     pub on_violation: OnViolation,

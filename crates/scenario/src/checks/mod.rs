@@ -140,6 +140,32 @@ impl std::fmt::Display for CheckKind {
     }
 }
 
+/// One expression for the settings of a check, whatever its kind.
+macro_rules! in_each_kind {
+    ($check:ident, $settings:ident => $of:expr) => {
+        match $check {
+            Self::Agreement($settings) => $of,
+            Self::Clearance($settings) => $of,
+            Self::Contact($settings) => $of,
+            Self::CycleTime($settings) => $of,
+            Self::Dynamics($settings) => $of,
+            Self::Effort($settings) => $of,
+            Self::Goal($settings) => $of,
+            Self::Invariants($settings) => $of,
+            Self::Limits($settings) => $of,
+            Self::Pose($settings) => $of,
+            Self::Power($settings) => $of,
+            Self::Recording($settings) => $of,
+            Self::SamePoint($settings) => $of,
+            Self::Step($settings) => $of,
+            Self::Tracking($settings) => $of,
+            Self::Twist($settings) => $of,
+            Self::Velocity($settings) => $of,
+            Self::Zone($settings) => $of,
+        }
+    };
+}
+
 impl Check {
     /// The kind of the check, without its limits.
     pub fn kind(&self) -> CheckKind {
@@ -167,49 +193,34 @@ impl Check {
 
     /// What the run does at the first violation of the check.
     pub fn on_violation(&self) -> OnViolation {
-        match self {
-            Self::Agreement(check) => check.on_violation,
-            Self::Clearance(check) => check.on_violation,
-            Self::Contact(check) => check.on_violation,
-            Self::CycleTime(check) => check.on_violation,
-            Self::Dynamics(check) => check.on_violation,
-            Self::Effort(check) => check.on_violation,
-            Self::Goal(check) => check.on_violation,
-            Self::Invariants(check) => check.on_violation,
-            Self::Limits(check) => check.on_violation,
-            Self::Pose(check) => check.on_violation,
-            Self::Power(check) => check.on_violation,
-            Self::Recording(check) => check.on_violation,
-            Self::SamePoint(check) => check.on_violation,
-            Self::Step(check) => check.on_violation,
-            Self::Tracking(check) => check.on_violation,
-            Self::Twist(check) => check.on_violation,
-            Self::Velocity(check) => check.on_violation,
-            Self::Zone(check) => check.on_violation,
-        }
+        in_each_kind!(self, check => check.on_violation)
     }
 
     /// The same, to change it.
     pub fn on_violation_mut(&mut self) -> &mut OnViolation {
+        in_each_kind!(self, check => &mut check.on_violation)
+    }
+
+    /// Share of all possible cases of `[uncertainty]` in which the check must hold; `None` for each case that runs.
+    pub fn passing(&self) -> Option<f64> {
         match self {
-            Self::Agreement(check) => &mut check.on_violation,
-            Self::Clearance(check) => &mut check.on_violation,
-            Self::Contact(check) => &mut check.on_violation,
-            Self::CycleTime(check) => &mut check.on_violation,
-            Self::Dynamics(check) => &mut check.on_violation,
-            Self::Effort(check) => &mut check.on_violation,
-            Self::Goal(check) => &mut check.on_violation,
-            Self::Invariants(check) => &mut check.on_violation,
-            Self::Limits(check) => &mut check.on_violation,
-            Self::Pose(check) => &mut check.on_violation,
-            Self::Power(check) => &mut check.on_violation,
-            Self::Recording(check) => &mut check.on_violation,
-            Self::SamePoint(check) => &mut check.on_violation,
-            Self::Step(check) => &mut check.on_violation,
-            Self::Tracking(check) => &mut check.on_violation,
-            Self::Twist(check) => &mut check.on_violation,
-            Self::Velocity(check) => &mut check.on_violation,
-            Self::Zone(check) => &mut check.on_violation,
+            Self::Agreement(check) => check.passing,
+            Self::Clearance(check) => check.passing,
+            Self::Contact(check) => check.passing,
+            Self::CycleTime(check) => check.passing,
+            Self::Dynamics(check) => check.passing,
+            Self::Effort(check) => check.passing,
+            Self::Goal(check) => check.passing,
+            Self::Invariants(check) => check.passing,
+            Self::Limits(check) => check.passing,
+            Self::Power(check) => check.passing,
+            Self::Tracking(check) => check.passing,
+            Self::Twist(check) => check.passing,
+            Self::Zone(check) => check.passing,
+            // Of logs alone, which have no cases.
+            Self::Pose(_) | Self::Recording(_) | Self::SamePoint(_) | Self::Step(_) | Self::Velocity(_) => {
+                None
+            }
         }
     }
 

@@ -9,7 +9,7 @@ use super::{
 };
 use crate::{
     PoseSettings,
-    number::{optional_non_negative, optional_positive},
+    number::{optional_inner_share, optional_non_negative, optional_positive},
     text::variant,
 };
 
@@ -29,6 +29,9 @@ pub struct AgreementCheck {
     /// The same in degrees.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub orientation_deg: Option<f64>,
+    /// Share of all possible cases of `[uncertainty]` in which the check must hold, below 1; default: in each case that runs.
+    #[serde(default, deserialize_with = "optional_inner_share", skip_serializing_if = "Option::is_none")]
+    pub passing: Option<f64>,
     /// What the run does at the first violation of the check.
     #[serde(default, deserialize_with = "variant")]
     pub on_violation: OnViolation,
@@ -52,6 +55,9 @@ pub struct GoalCheck {
     /// The same in degrees.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub orientation_deg: Option<f64>,
+    /// Share of all possible cases of `[uncertainty]` in which the check must hold, below 1; default: in each case that runs.
+    #[serde(default, deserialize_with = "optional_inner_share", skip_serializing_if = "Option::is_none")]
+    pub passing: Option<f64>,
     /// What the run does at the first violation of the check.
     #[serde(default, deserialize_with = "variant")]
     pub on_violation: OnViolation,
@@ -74,6 +80,9 @@ pub struct TwistCheck {
     /// The same in deg/s.
     #[serde(default, deserialize_with = "optional_non_negative", skip_serializing_if = "Option::is_none")]
     pub angular_deg_s: Option<f64>,
+    /// Share of all possible cases of `[uncertainty]` in which the check must hold, below 1; default: in each case that runs.
+    #[serde(default, deserialize_with = "optional_inner_share", skip_serializing_if = "Option::is_none")]
+    pub passing: Option<f64>,
     /// What the run does at the first violation of the check.
     #[serde(default, deserialize_with = "variant")]
     pub on_violation: OnViolation,
@@ -87,6 +96,9 @@ pub struct InvariantsCheck {
     /// Default: a small multiple of rounding.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub rotation: Option<f64>,
+    /// Share of all possible cases of `[uncertainty]` in which the check must hold, below 1; default: in each case that runs.
+    #[serde(default, deserialize_with = "optional_inner_share", skip_serializing_if = "Option::is_none")]
+    pub passing: Option<f64>,
     /// What the run does at the first violation of the check.
     #[serde(default, deserialize_with = "variant")]
     pub on_violation: OnViolation,

@@ -7,7 +7,10 @@ use super::{
     on_violation::OnViolation,
     unit_keys::{UnitKeys, in_two_units},
 };
-use crate::{number::optional_non_negative, text::variant};
+use crate::{
+    number::{optional_inner_share, optional_non_negative},
+    text::variant,
+};
 
 /// Links keep a minimum distance from each other and from obstacles.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -26,6 +29,9 @@ pub struct ClearanceCheck {
     /// Pairs that are not checked, in either order; in a name, `*` matches any characters.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub ignore: Vec<[String; 2]>,
+    /// Share of all possible cases of `[uncertainty]` in which the check must hold, below 1; default: in each case that runs.
+    #[serde(default, deserialize_with = "optional_inner_share", skip_serializing_if = "Option::is_none")]
+    pub passing: Option<f64>,
     /// What the run does at the first violation of the check.
     #[serde(default, deserialize_with = "variant")]
     pub on_violation: OnViolation,
@@ -53,6 +59,9 @@ pub struct ContactCheck {
     /// Pairs that are not checked, in either order; in a name, `*` matches any characters.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub ignore: Vec<[String; 2]>,
+    /// Share of all possible cases of `[uncertainty]` in which the check must hold, below 1; default: in each case that runs.
+    #[serde(default, deserialize_with = "optional_inner_share", skip_serializing_if = "Option::is_none")]
+    pub passing: Option<f64>,
     /// What the run does at the first violation of the check.
     #[serde(default, deserialize_with = "variant")]
     pub on_violation: OnViolation,
@@ -62,6 +71,9 @@ pub struct ContactCheck {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ZoneCheck {
+    /// Share of all possible cases of `[uncertainty]` in which the check must hold, below 1; default: in each case that runs.
+    #[serde(default, deserialize_with = "optional_inner_share", skip_serializing_if = "Option::is_none")]
+    pub passing: Option<f64>,
     /// What the run does at the first violation of the check.
     #[serde(default, deserialize_with = "variant")]
     pub on_violation: OnViolation,

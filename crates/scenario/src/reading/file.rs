@@ -8,12 +8,13 @@ use std::{
 
 use congruent_input::{
     Diagnostic, Diagnostics, FileAccess, Findings, Override, SourceFile, codes::toml::UNKNOWN_KEY,
-    direct_path, is_standard_input, known_names, nearest, toml_text,
+    direct_path, is_standard_input, nearest, toml_text,
 };
 use serde::Deserialize;
 use toml::Spanned;
 
 use super::{
+    expect::read_expect,
     faults::read_fault,
     motion::read_motion,
     other_file::{refuse_folder, refuse_other_text},
@@ -52,7 +53,7 @@ struct Top {
 }
 
 /// The sections of a file below its top.
-const SECTIONS: [&str; 16] = [
+const SECTIONS: [&str; 17] = [
     "simulation",
     "source",
     "start",
@@ -67,6 +68,7 @@ const SECTIONS: [&str; 16] = [
     "zone",
     "fault",
     "check",
+    "uncertainty",
     "output",
     "expect",
 ];
@@ -147,7 +149,10 @@ fn is_unknown_key(finding: &Diagnostic) -> bool {
 /// Refuses a key that is set twice: which of the values is meant is not known.
 fn set_once(overrides: &[Override]) -> Result<(), Diagnostic> {
     let again = overrides.iter().enumerate().find_map(|(at, change)| {
-        overrides[..at].iter().find(|before| before.same_key(change)).map(|before| (before, change))
+        overrides[..at]
+            .iter()
+            .find(|before| before.same_key(change) && before.excludes(change))
+            .map(|before| (before, change))
     });
     again.map_or(Ok(()), |(before, change)| {
         Err(change.refused(&format!("the key is set twice, first by {before}")))
@@ -206,7 +211,8 @@ fn read(mut document: Section<'_>, findings: &mut Diagnostics) -> Option<Scenari
         section.read_into(findings)
     });
     let fault = all(&mut document, "fault", findings, read_fault);
-    let check = all(&mut document, "check", findings, read_check);
+    let checks = all(&mut document, "check", findings, read_check);
+    let uncertainty = if_given(&mut document, "uncertainty", findings);
     let output = one(&mut document, "output", findings);
     let expect = findings.keep(document.take_table("expect")).flatten();
     let expect = findings.keep(expect.map_or(Ok(Expectation::default()), read_expect));
@@ -237,7 +243,8 @@ fn read(mut document: Section<'_>, findings: &mut Diagnostics) -> Option<Scenari
         grasp: grasp?,
         zone: zone?,
         fault: fault?,
-        check: check?,
+        check: checks?,
+        uncertainty,
         output: output?,
         expect: expect?,
     })
@@ -253,6 +260,15 @@ fn one<T: serde::de::DeserializeOwned + Default>(
         Some(section) => section.read_into(findings),
         None => Some(T::default()),
     }
+}
+
+/// A section without defaults, if it is there; one that cannot be read is in `findings`.
+fn if_given<T: serde::de::DeserializeOwned>(
+    document: &mut Section<'_>,
+    key: &str,
+    findings: &mut Diagnostics,
+) -> Option<T> {
+    findings.keep(document.take_table(key)).flatten().and_then(|section| section.read_into(findings))
 }
 
 /// All sections of one name; `None` if one of them could not be read.
@@ -299,7 +315,7 @@ fn read_check(mut section: Section<'_>, findings: &mut Diagnostics) -> Option<Ch
 fn read_source(document: &mut Section<'_>) -> Result<Option<SourceSettings>, Findings> {
     let Some(section) = document.take_table("source")? else { return Ok(None) };
     let mut findings = Diagnostics::default();
-    for excluded in ["controller", "motion", "fault"] {
+    for excluded in ["controller", "motion", "fault", "uncertainty"] {
         if let Some(span) = document.take_span_of(excluded) {
             let message = format!("[{excluded}] is beside [source], whose log says how the joints moved");
             let error = Diagnostic::error(codes::scenario::SOURCE, message);
@@ -335,28 +351,6 @@ fn read_controller(section: Option<Section<'_>>) -> Result<ControllerSettings, F
     section.read()
 }
 
-fn read_expect(mut section: Section<'_>) -> Result<Expectation, Findings> {
-    #[derive(Deserialize)]
-    #[serde(deny_unknown_fields)]
-    struct Named {
-        #[serde(default)]
-        checks: Vec<Spanned<String>>,
-    }
-    let span = section.span();
-    let verdict = *section.select("verdict", "expected verdict", &["pass", "fail"], |name| name)?;
-    let Named { checks } = section.read()?;
-    let kind = |name: Spanned<String>| check_kind(name.get_ref()).map_err(|error| error.at(name.span()));
-    let checks: Vec<CheckKind> = checks.into_iter().map(kind).collect::<Result<_, _>>()?;
-    match (verdict, checks.is_empty()) {
-        ("fail", _) => Ok(Expectation::Fail { checks }),
-        (_, true) => Ok(Expectation::Pass),
-        (_, false) => Err(Diagnostic::error(codes::scenario::EXPECT, "`checks` needs verdict = \"fail\"")
-            .with_help("`checks` names the checks that must fail: change the verdict, or remove `checks`")
-            .at(span)
-            .into()),
-    }
-}
-
 /// An unknown key at the top may be a misspelt section.
 fn name_sections(error: Diagnostic) -> Diagnostic {
     if !is_unknown_key(&error) {
@@ -388,12 +382,4 @@ fn check_top(top: &Top) -> Result<(), Diagnostic> {
             .at(top.name.span()));
     }
     Ok(())
-}
-
-/// A kind of check by its name, with the nearest known one if there is none.
-fn check_kind(name: &str) -> Result<CheckKind, Diagnostic> {
-    CheckKind::ALL.into_iter().find(|kind| kind.word() == name).ok_or_else(|| {
-        Diagnostic::error(codes::scenario::UNKNOWN_KIND, format!("unknown kind of check \"{name}\""))
-            .with_help(known_names(name, "kinds", CheckKind::ALL.map(CheckKind::word)))
-    })
 }

@@ -30,7 +30,9 @@ pub(super) fn distinct_places(
         let Ok(Some(place)) = change.find(document) else { continue };
         let place = place.span();
         let is_shared = |other: &Range<usize>| other.start < place.end && place.start < other.end;
-        if let Some((_, before)) = known.iter().find(|(other, _)| is_shared(other)) {
+        let is_meant =
+            |(other, before): &&(Range<usize>, &Override)| is_shared(other) && before.excludes(change);
+        if let Some((_, before)) = known.iter().find(is_meant) {
             return Err(change.refused(&format!("the same value is set by {before}")));
         }
         known.push((place, change));

@@ -1,5 +1,8 @@
 //! The distribution of one value: from a share between 0 and 1 to the value.
 
+use std::fmt;
+
+use congruent_input::display::number;
 use serde::Serialize;
 
 use crate::sampling::normal_quantile;
@@ -69,6 +72,23 @@ impl Distribution {
                 }
             }
             Self::Values(_) => f64::NAN,
+        }
+    }
+}
+
+impl fmt::Display for Distribution {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let of = |value: f64| number(value);
+        match self {
+            Self::Uniform([from, to]) => write!(f, "{} to {}", of(*from), of(*to)),
+            Self::LogUniform([from, to]) => write!(f, "{} to {}, by its logarithm", of(*from), of(*to)),
+            Self::Normal { mean, deviation, .. } => {
+                write!(f, "normal, {} with standard deviation {}", of(*mean), of(*deviation))
+            }
+            Self::Triangular([from, peak, to]) => {
+                write!(f, "{} to {}, most often {}", of(*from), of(*to), of(*peak))
+            }
+            Self::Values(values) => write!(f, "one of {}", values.join(", ")),
         }
     }
 }

@@ -1,6 +1,8 @@
 //! The plan of a sweep: which values of a scenario vary, and how; from its file to the overrides of any case.
 
 mod distribution;
+mod nominal;
+mod of_scenario;
 mod read;
 mod requirement;
 mod varied;
@@ -8,6 +10,5 @@ mod written;
 
 pub use distribution::Distribution;
 pub use read::{SweepCase, SweepPlan};
-pub use requirement::PassingShare;
 pub use varied::VariedKey;
 pub use written::{WrittenPlan, sweep_plan_schema};

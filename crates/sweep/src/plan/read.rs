@@ -1,6 +1,7 @@
 //! A checked plan, and the overrides of each of its cases.
 
 use std::{
+    ops::Range,
     path::{Path, PathBuf},
     sync::Arc,
 };
@@ -9,16 +10,19 @@ use congruent_input::{
     Diagnostic, Diagnostics, FileAccess, Findings, Override, SourceFile, direct_path, folder_of,
     toml_text::parse_toml,
 };
+use congruent_results::report::PassingShare;
+use congruent_scenario::CaseSampling;
 use toml::Spanned;
 
 use super::{
-    requirement::PassingShare,
+    nominal::NominalValues,
+    requirement::passing_share,
     varied::{VariedKey, key_of, varied},
     written::WrittenPlan,
 };
 use crate::{
     codes,
-    sampling::{CaseSampling, MOST_DIMENSIONS, PointSource},
+    sampling::{MOST_DIMENSIONS, PointSource},
 };
 
 /// Version of plan files.
@@ -28,7 +32,7 @@ const MOST_BYTES: u64 = 1 << 20;
 /// Most Sobol points: an index has 32 bits.
 const MOST_SOBOL: u64 = 1 << 32;
 /// The key of the scenario's seed: a plan that varies it has no other seeds.
-const SEED: &str = "seed";
+pub(super) const SEED: &str = "seed";
 
 /// A plan: one scenario, and the values of its cases.
 #[derive(Debug, Clone)]
@@ -51,8 +55,8 @@ pub struct SweepPlan {
     pub set: Vec<Override>,
     /// What the rows are judged by.
     pub require: Option<PassingShare>,
-    points: PointSource,
-    source: Arc<SourceFile>,
+    pub(super) points: PointSource,
+    pub(super) source: Arc<SourceFile>,
 }
 
 /// One case of a plan.
@@ -77,15 +81,10 @@ impl SweepPlan {
         let source = access.read_named_text(path, MOST_BYTES)?;
         let mut found = Diagnostics::default();
         let written: Option<WrittenPlan> = parse_toml(&source.text, &mut found);
-        let plan = written.and_then(|written| checked(&written, &source, &mut found));
+        let access = access.inside_project_of(path)?;
+        let plan = written.and_then(|written| checked(&written, &source, &access, &mut found));
         match plan {
-            Some(plan) if !found.has_error() => {
-                access
-                    .inside_project_of(path)?
-                    .check(&plan.scenario)
-                    .map_err(|fault| fault.in_file(&source))?;
-                Ok(plan)
-            }
+            Some(plan) if !found.has_error() => Ok(plan),
             _ => Err(found.in_file(&source).into()),
         }
     }
@@ -101,7 +100,7 @@ impl SweepPlan {
             self.varied.iter().zip(point).map(|(varied, share)| varied.distribution.value(share)).collect();
         let mut overrides = self.set.clone();
         for (varied, value) in self.varied.iter().zip(&values) {
-            overrides.extend(varied.keys.iter().map(|key| set(key, value)));
+            overrides.extend(varied.keys.iter().map(|key| set(key, value).replacing()));
         }
         // A seed that the plan sets or varies is that of the run.
         let given = overrides.iter().find(|change| change.path().eq([SEED])).map(Override::whole_number);
@@ -141,7 +140,12 @@ fn set(key: &str, value: &str) -> Override {
     format!("{key}={value}").parse().expect("key and value were checked with the plan")
 }
 
-fn checked(written: &WrittenPlan, source: &Arc<SourceFile>, found: &mut Diagnostics) -> Option<SweepPlan> {
+fn checked(
+    written: &WrittenPlan,
+    source: &Arc<SourceFile>,
+    access: &FileAccess,
+    found: &mut Diagnostics,
+) -> Option<SweepPlan> {
     let name = written.name.get_ref().trim().to_owned();
     if *written.schema_version.get_ref() != SCHEMA_VERSION {
         let message = format!("schema_version = {} is not supported", written.schema_version.get_ref());
@@ -158,16 +162,22 @@ fn checked(written: &WrittenPlan, source: &Arc<SourceFile>, found: &mut Diagnost
             fault.at(0..0).with_help("[[vary]]\nkey = \"controller.stiffness\"\nuniform = [400.0, 4000.0]"),
         );
     }
-    let varied: Vec<VariedKey> = written
-        .vary
-        .iter()
-        .filter_map(|vary| found.keep(varied(vary, written.sampling).map_err(|fault| fault.at(vary.span()))))
-        .collect();
-    let set = found.keep(fixed(written));
-    repeated(written, found);
+    let set = found.keep(fixed(written))?;
+    let scenario = direct_path(&folder_of(&source.path).join(written.scenario.get_ref()));
+    // Before it is read for the values around which others vary.
+    found.keep(access.check(&scenario).map_err(|fault| fault.at(written.scenario.span())))?;
+    let nominal = NominalValues { scenario: &scenario, overrides: &set, access };
+    let keys = written.vary.iter().filter_map(|vary| {
+        let varied = varied(vary.get_ref(), &vary.span(), written.sampling, nominal);
+        found.keep(varied.map_err(|fault| at(fault, vary.span())))
+    });
+    let varied: Vec<VariedKey> = keys.flatten().collect();
+    let mut of_set = Vec::new();
+    flatten("", &written.set, &mut of_set);
+    found.extend(repeated(of_set.into_iter().map(|(key, _)| key), &varied));
     let cases = found.keep(cases(written, &varied))?;
     let require = written.require.as_ref().and_then(|require| {
-        let checked = PassingShare::new(*require.get_ref(), written.sampling);
+        let checked = passing_share(*require.get_ref(), written.sampling);
         found.keep(checked.map_err(|fault| fault.at(require.span())))
     });
     let steps = varied.iter().map(|varied| varied.steps).collect();
@@ -178,12 +188,12 @@ fn checked(written: &WrittenPlan, source: &Arc<SourceFile>, found: &mut Diagnost
     Some(SweepPlan {
         name,
         path: source.path.clone(),
-        scenario: direct_path(&folder_of(&source.path).join(written.scenario.get_ref())),
+        scenario,
         sampling,
         cases,
         seed,
         varied,
-        set: set?,
+        set,
         require,
         points: PointSource::new(sampling, seed, cases, steps),
         source: Arc::clone(source),
@@ -209,19 +219,24 @@ fn flatten(before: &str, table: &toml::Table, found: &mut Vec<(String, String)>)
 }
 
 /// Refuses a key that is there twice: which of the values is meant is not known.
-fn repeated(written: &WrittenPlan, found: &mut Diagnostics) {
-    let mut set = Vec::new();
-    flatten("", &written.set, &mut set);
-    let mut known: Vec<String> = set.iter().map(|(key, _)| key.clone()).collect();
-    for vary in &written.vary {
-        for key in vary.get_ref().keys().unwrap_or_default() {
-            if known.contains(&key) {
+pub(super) fn repeated(set: impl Iterator<Item = String>, varied: &[VariedKey]) -> Vec<Diagnostic> {
+    let mut known: Vec<String> = set.collect();
+    let mut found = Vec::new();
+    for varied in varied {
+        for key in &varied.keys {
+            if known.contains(key) {
                 let message = format!("key \"{key}\" is there twice");
-                found.push(Diagnostic::error(codes::sweep::KEY, message).at(vary.span()));
+                found.push(Diagnostic::error(codes::sweep::KEY, message).at(varied.place.clone()));
             }
-            known.push(key);
+            known.push(key.clone());
         }
     }
+    found
+}
+
+/// A fault at a place, unless it has one in another file.
+pub(super) fn at(fault: Diagnostic, place: Range<usize>) -> Diagnostic {
+    if fault.source.is_some() { fault } else { fault.at(place) }
 }
 
 fn cases(written: &WrittenPlan, varied: &[VariedKey]) -> Result<u64, Diagnostic> {

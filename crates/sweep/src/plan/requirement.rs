@@ -1,33 +1,29 @@
 //! `[require]`: the share of cases that must pass.
 
 use congruent_input::Diagnostic;
+use congruent_results::report::PassingShare;
+use congruent_scenario::CaseSampling;
 
 use super::written::WrittenRequirement;
-use crate::{codes, sampling::CaseSampling};
+use crate::codes;
 
-/// A share of all possible cases that must pass, and the confidence with which that must be known.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PassingShare {
-    /// The share, between 0 and 1.
-    pub passing: f64,
-    /// The confidence, between 0 and 1.
-    pub confidence: f64,
-}
-
-impl PassingShare {
-    pub(super) fn new(written: WrittenRequirement, sampling: CaseSampling) -> Result<Self, Diagnostic> {
-        let fault = |message: String| Diagnostic::error(codes::sweep::REQUIREMENT, message);
-        let WrittenRequirement { passing, confidence } = written;
-        for (name, value) in [("passing", passing), ("confidence", confidence)] {
-            if !(value > 0.0 && value < 1.0) {
-                return Err(fault(format!("{name} = {value} is not between 0 and 1, without both"))
-                    .with_help("passing = 0.99 and confidence = 0.95: that every case passes, no number of cases shows"));
-            }
+/// The share that a plan requires.
+pub(super) fn passing_share(
+    written: WrittenRequirement,
+    sampling: CaseSampling,
+) -> Result<PassingShare, Diagnostic> {
+    let fault = |message: String| Diagnostic::error(codes::sweep::REQUIREMENT, message);
+    let WrittenRequirement { passing, confidence } = written;
+    for (name, value) in [("passing", passing), ("confidence", confidence)] {
+        if !(value > 0.0 && value < 1.0) {
+            return Err(fault(format!("{name} = {value} is not between 0 and 1, without both")).with_help(
+                "passing = 0.99 and confidence = 0.95: that every case passes, no number of cases shows",
+            ));
         }
-        if sampling == CaseSampling::Grid {
-            return Err(fault("a grid is no sample of the cases, so it shows no share of them".to_owned())
-                .with_help("sampling = \"latin_hypercube\", \"sobol\" or \"random\""));
-        }
-        Ok(Self { passing, confidence })
     }
+    if sampling == CaseSampling::Grid {
+        return Err(fault("a grid is no sample of the cases, so it shows no share of them".to_owned())
+            .with_help("sampling = \"latin_hypercube\", \"sobol\" or \"random\""));
+    }
+    Ok(PassingShare { passing, confidence })
 }

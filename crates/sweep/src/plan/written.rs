@@ -4,9 +4,7 @@ use schemars::{JsonSchema, Schema, schema_for};
 use serde::Deserialize;
 use toml::Spanned;
 
-use congruent_input::fixed_array;
-
-use crate::sampling::CaseSampling;
+use congruent_scenario::{CaseSampling, USUAL_CONFIDENCE, VarySettings};
 
 /// A plan file, `*.sweep.toml`.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -38,8 +36,8 @@ pub struct WrittenPlan {
     #[schemars(with = "Option<WrittenRequirement>")]
     pub(super) require: Option<Spanned<WrittenRequirement>>,
     /// What varies.
-    #[schemars(with = "Vec<WrittenVary>")]
-    pub(super) vary: Vec<Spanned<WrittenVary>>,
+    #[schemars(with = "Vec<VarySettings>")]
+    pub(super) vary: Vec<Spanned<VarySettings>>,
 }
 
 /// `[require]`: the share of cases that must pass, and how well that must be known.
@@ -54,73 +52,7 @@ pub(super) struct WrittenRequirement {
 }
 
 fn usual_confidence() -> f64 {
-    0.95
-}
-
-/// One `[[vary]]`: keys and one distribution.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(super) struct WrittenVary {
-    /// A key of the scenario, as of --set; one that begins with robot. is of the robot. Several keys get the same value.
-    #[schemars(with = "OneOrMore")]
-    pub(super) key: Spanned<toml::Value>,
-    /// Evenly between two numbers.
-    #[serde(default, deserialize_with = "fixed_array")]
-    #[schemars(with = "Option<[f64; 2]>")]
-    pub(super) uniform: Option<Spanned<[f64; 2]>>,
-    /// Evenly between the logarithms of two positive numbers.
-    #[serde(default, deserialize_with = "fixed_array")]
-    #[schemars(with = "Option<[f64; 2]>")]
-    pub(super) log_uniform: Option<Spanned<[f64; 2]>>,
-    /// Normally distributed, by mean and standard deviation.
-    pub(super) normal: Option<WrittenNormal>,
-    /// From the first to the last number, the one between them most often.
-    #[serde(default, deserialize_with = "fixed_array")]
-    #[schemars(with = "Option<[f64; 3]>")]
-    pub(super) triangular: Option<Spanned<[f64; 3]>>,
-    /// One of these values, each as often.
-    #[schemars(with = "Option<Vec<serde_json::Value>>")]
-    pub(super) values: Option<Vec<toml::Value>>,
-    /// Number of values of a range on a grid, both ends among them.
-    pub(super) steps: Option<u32>,
-}
-
-/// A normal distribution.
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(super) struct WrittenNormal {
-    /// Its mean.
-    pub(super) mean: f64,
-    /// Its standard deviation.
-    pub(super) deviation: f64,
-    /// The least value: the distribution is cut there.
-    pub(super) min: Option<f64>,
-    /// The largest value: the distribution is cut there.
-    pub(super) max: Option<f64>,
-}
-
-/// A text, or a list of texts, as the schema says it.
-#[derive(JsonSchema)]
-#[serde(untagged)]
-#[expect(dead_code, reason = "only its schema is used")]
-enum OneOrMore {
-    /// One.
-    One(String),
-    /// Several.
-    More(Vec<String>),
-}
-
-impl WrittenVary {
-    /// The keys; `None` if they are neither a text nor a list of texts.
-    pub(super) fn keys(&self) -> Option<Vec<String>> {
-        match self.key.get_ref() {
-            toml::Value::String(key) => Some(vec![key.clone()]),
-            toml::Value::Array(keys) if !keys.is_empty() => {
-                keys.iter().map(|key| key.as_str().map(str::to_owned)).collect()
-            }
-            _ => None,
-        }
-    }
+    USUAL_CONFIDENCE
 }
 
 /// The schema of plan files.

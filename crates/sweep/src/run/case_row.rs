@@ -96,7 +96,8 @@ impl From<Verdict> for CaseVerdict {
         match verdict {
             Verdict::AsExpected => Self::Pass,
             Verdict::NotAsExpected => Self::Fail,
-            Verdict::NothingChecked => Self::NothingChecked,
+            // A case has no cases of its own.
+            Verdict::NothingChecked | Verdict::NotEnoughCases => Self::NothingChecked,
             Verdict::Broken => Self::Broken,
         }
     }

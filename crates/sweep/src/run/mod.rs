@@ -3,7 +3,9 @@
 mod case_row;
 mod runner;
 mod threads;
+mod uncertainty;
 
 pub use case_row::{CaseRow, CaseVerdict, WorstValue};
 pub use runner::CaseRunner;
 pub use threads::run_cases;
+pub use uncertainty::CaseThreads;

@@ -7,10 +7,13 @@ use std::{
 };
 
 use congruent_description::{Robot, RobotDescription, load_robot_set};
-use congruent_input::{Diagnostic, FileAccess, Findings, Override};
+use congruent_input::{
+    Diagnostic, FileAccess, Findings, Override,
+    codes::{cli::SET, toml::UNKNOWN_KEY},
+};
 use congruent_monitors::NoRecorder;
-use congruent_results::report::{Causes, RunReport, diagnose_run};
-use congruent_twin::{Run, RunSetup};
+use congruent_results::report::{AfterRun, RunReport, diagnose_run};
+use congruent_twin::{CaseValue, Run, RunSetup};
 
 use super::case_row::CaseRow;
 use crate::plan::{SweepCase, SweepPlan};
@@ -23,18 +26,31 @@ const MOST_ROBOTS: usize = 16;
 pub struct CaseRunner<'a> {
     plan: &'a SweepPlan,
     access: FileAccess,
+    /// The scenario as it is written, whose values controllers know; `None` if they know those of the case.
+    nominal: Option<&'a RunSetup>,
     robots: Mutex<BTreeMap<String, Arc<RobotDescription>>>,
 }
 
 impl<'a> CaseRunner<'a> {
     /// A runner of the cases of a plan, whose scenario and robot may open these files.
     pub fn new(plan: &'a SweepPlan, access: FileAccess) -> Self {
-        Self { plan, access, robots: Mutex::default() }
+        Self { plan, access, nominal: None, robots: Mutex::default() }
+    }
+
+    /// The same for the cases of `[uncertainty]`: the controllers of each know the values of `nominal`, the scenario as it is written.
+    #[must_use]
+    pub fn with_controllers_of(self, nominal: &'a RunSetup) -> Self {
+        Self { nominal: Some(nominal), ..self }
     }
 
     /// The plan.
     pub fn plan(&self) -> &'a SweepPlan {
         self.plan
+    }
+
+    /// The scenario whose values the controllers of the cases know.
+    pub(super) fn nominal(&self) -> Option<&'a RunSetup> {
+        self.nominal
     }
 
     /// The files that were opened for the plan.
@@ -47,7 +63,27 @@ impl<'a> CaseRunner<'a> {
     /// # Errors
     /// Every finding, if the scenario cannot be run with the values of the case.
     pub fn setup(&self, case: &SweepCase) -> Result<RunSetup, Findings> {
-        self.setup_with(&case.overrides)
+        let setup = self.setup_with(&case.overrides)?;
+        let Some(nominal) = self.nominal else { return Ok(setup) };
+        let named = self.plan.varied.iter().map(|varied| varied.keys.join(", "));
+        let values = named.zip(&case.values).map(|(key, value)| CaseValue { key, value: value.clone() });
+        Ok(setup.as_case(nominal, case.case, values.collect()))
+    }
+
+    /// The scenario of the first case, or, if its values are refused, of the plan without what varies. What is wrong with a key is
+    /// wrong with every case.
+    ///
+    /// # Errors
+    /// The findings about a key, at its place in the plan; or those of the scenario.
+    pub fn first_setup(&self) -> Result<RunSetup, Findings> {
+        let plan = self.plan;
+        self.setup(&plan.case(0)).or_else(|findings| {
+            let is_of_key = |finding: &Diagnostic| [UNKNOWN_KEY, SET].contains(&finding.code);
+            if findings.iter().any(is_of_key) {
+                return Err(plan.at_keys(findings));
+            }
+            self.setup_with(&plan.set).map_err(|_| findings)
+        })
     }
 
     /// The scenario with these overrides.
@@ -93,18 +129,28 @@ impl<'a> CaseRunner<'a> {
         self.robots.lock().expect("no thread panics while it looks a robot up")
     }
 
+    /// The report of a case, or why it cannot be run; `None` if it was interrupted.
+    pub(super) fn report(
+        &self,
+        case: &SweepCase,
+        interrupt: &AtomicBool,
+    ) -> Option<Result<RunReport, String>> {
+        let setup = match self.setup(case) {
+            Ok(setup) => setup,
+            Err(findings) => return Some(Err(in_one_line(&findings))),
+        };
+        Some(report(&setup, interrupt)).filter(|report| {
+            report.as_ref().map_or(true, |report| report.error.as_deref() != Some(INTERRUPTED))
+        })
+    }
+
     /// The row of a case. What cannot be run has a row that says why.
     pub fn run(&self, case: u64, interrupt: &AtomicBool) -> Option<CaseRow> {
         let case = self.plan.case(case);
-        let setup = match self.setup(&case) {
-            Ok(setup) => setup,
-            Err(findings) => return Some(CaseRow::refused(case, in_one_line(&findings))),
-        };
-        match report(&setup, interrupt) {
-            Ok(report) if report.error.as_deref() == Some(INTERRUPTED) => None,
-            Ok(report) => Some(CaseRow::of_run(case, &report)),
-            Err(error) => Some(CaseRow::refused(case, error)),
-        }
+        Some(match self.report(&case, interrupt)? {
+            Ok(report) => CaseRow::of_run(case, &report),
+            Err(error) => CaseRow::refused(case, error),
+        })
     }
 }
 
@@ -117,7 +163,7 @@ fn report(setup: &RunSetup, interrupt: &AtomicBool) -> Result<RunReport, String>
     let mut run = run.on_one_thread().interrupted_by(Some(interrupt));
     let sources = run.model().sources().to_vec();
     let (outcome, result) = run.finish(&mut setup.checks(), &mut NoRecorder, |_| ());
-    let causes = Causes::from_samples(diagnose_run(&mut run, &outcome));
+    let causes = AfterRun::from_samples(diagnose_run(&mut run, &outcome));
     Ok(RunReport::new(setup, &sources, outcome, causes, result.as_ref().err()))
 }
 

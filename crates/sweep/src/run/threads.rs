@@ -9,36 +9,34 @@ use std::{
     thread,
 };
 
-use super::{case_row::CaseRow, runner::CaseRunner};
+/// Results that may wait for whoever takes them, for each thread. Kind: choice; a slow disk must not fill the memory.
+const WAITING: usize = 64;
 
-/// Rows that may wait for whoever takes them, for each thread. Kind: choice; a slow disk must not fill the memory.
-const WAITING_ROWS: usize = 64;
-
-/// Runs these cases on `jobs` threads; `take` gets each row as it is done, in no order. Ends in order once `interrupt` is set: cases
-/// that have not ended have no row.
+/// Runs these cases on `jobs` threads; `take` gets the result of each as it is done, in no order. Ends in order once `interrupt` is set:
+/// cases that have not ended have no result, for which `run` gives `None`.
 ///
 /// # Errors
 /// The first error of `take`, after which no further case begins.
 ///
 /// # Panics
 /// If a run does.
-pub fn run_cases<E>(
-    runner: &CaseRunner<'_>,
+pub fn run_cases<T: Send, E>(
     cases: impl Iterator<Item = u64> + Send,
     jobs: usize,
     interrupt: &AtomicBool,
-    mut take: impl FnMut(CaseRow) -> Result<(), E>,
+    run: impl Fn(u64) -> Option<T> + Sync,
+    mut take: impl FnMut(T) -> Result<(), E>,
 ) -> Result<(), E> {
     let waiting = Mutex::new(cases);
-    let (sender, rows) = mpsc::sync_channel(WAITING_ROWS * jobs);
+    let (sender, results) = mpsc::sync_channel(WAITING * jobs);
     // Not the flag of the caller: an error here is no interruption of the program.
     let is_over = AtomicBool::new(false);
     let ends = || interrupt.load(Ordering::Relaxed) || is_over.load(Ordering::Relaxed);
-    let work = |rows: mpsc::SyncSender<CaseRow>| {
+    let work = |results: mpsc::SyncSender<T>| {
         while !ends() {
             let next = waiting.lock().expect("no thread panics while it takes a case").next();
-            let row = next.and_then(|case| runner.run(case, interrupt));
-            if row.is_none_or(|row| rows.send(row).is_err()) {
+            let result = next.and_then(&run);
+            if result.is_none_or(|result| results.send(result).is_err()) {
                 return;
             }
         }
@@ -49,8 +47,8 @@ pub fn run_cases<E>(
             scope.spawn(move || work(sender));
         }
         drop(sender);
-        for row in rows {
-            if let Err(error) = take(row) {
+        for result in results {
+            if let Err(error) = take(result) {
                 is_over.store(true, Ordering::Relaxed);
                 return Err(error);
             }

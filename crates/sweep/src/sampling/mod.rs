@@ -1,12 +1,10 @@
 //! Points in the unit cube, one for each case: any of them by its number alone, so that a sweep can be cut anywhere.
 
-mod kind;
 mod normal;
 mod permutation;
 mod point;
 mod sobol;
 
-pub use kind::CaseSampling;
 pub(crate) use normal::normal_quantile;
 pub(crate) use point::PointSource;
 pub(crate) use sobol::MOST_DIMENSIONS;

@@ -5,8 +5,9 @@ use rand_chacha::{
     rand_core::{RngCore, SeedableRng},
 };
 
+use congruent_scenario::CaseSampling;
+
 use super::{
-    kind::CaseSampling,
     permutation::{mixed, permuted},
     sobol::{Sobol, scrambled},
 };

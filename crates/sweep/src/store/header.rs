@@ -2,12 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use congruent_input::{
-    Diagnostic, Findings, InputFile, Override,
-    codes::{cli::SET, toml::UNKNOWN_KEY},
-};
+use congruent_input::{Findings, InputFile, Override};
 use congruent_results::report::Versions;
-use congruent_twin::RunSetup;
+use congruent_scenario::CaseSampling;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -16,7 +13,6 @@ use super::digest::hex;
 use crate::{
     plan::{Distribution, SweepPlan},
     run::CaseRunner,
-    sampling::CaseSampling,
 };
 
 /// What the rows of a folder are of. Folders with equal `identity` have parts of one sweep.
@@ -55,7 +51,7 @@ impl SweepHeader {
     /// The findings of the first case, if none of the first can be run: a key is wrong, or the scenario is.
     pub fn new(runner: &CaseRunner<'_>) -> Result<Self, Findings> {
         let plan = runner.plan();
-        let setup = first_setup(runner)?;
+        let setup = runner.first_setup()?;
         let files: BTreeMap<String, String> = setup
             .inputs
             .iter()
@@ -85,19 +81,6 @@ impl SweepHeader {
 
 /// Most files that the values of a plan may name.
 const MOST_NAMED: usize = 64;
-
-/// The scenario of the first case, or, if its values are refused, of the plan without what varies. What is wrong with a key is wrong
-/// with every case, so it refuses the plan.
-fn first_setup(runner: &CaseRunner<'_>) -> Result<RunSetup, Findings> {
-    let plan = runner.plan();
-    runner.setup(&plan.case(0)).or_else(|findings| {
-        let is_of_key = |finding: &Diagnostic| [UNKNOWN_KEY, SET].contains(&finding.code);
-        if findings.iter().any(is_of_key) {
-            return Err(plan.at_keys(findings));
-        }
-        runner.setup_with(&plan.set).map_err(|_| findings)
-    })
-}
 
 /// The files that only some values name, such as tables of torques.
 fn named_files(runner: &CaseRunner<'_>) -> Vec<InputFile> {

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::sampling::CaseSampling;
+use congruent_scenario::CaseSampling;
 
 /// Groups of cases that are left out in turn, for the uncertainty. Kind: choice.
 const GROUPS: usize = 20;

@@ -1,9 +1,7 @@
 //! What the rows of a sweep show: verdicts, the range of each quantity, which value decides it, and the worst cases.
 
 mod importance;
-mod requirement;
 mod sweep_summary;
 
 pub use importance::{KeyImportance, importance};
-pub use requirement::{RequirementResult, RequirementVerdict};
 pub use sweep_summary::{MeasureSummary, SmallestMargin, SweepSummary};

@@ -2,15 +2,12 @@
 
 use std::collections::BTreeMap;
 
+use congruent_results::report::{PassingShare, RequirementResult};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::{
-    importance::{KeyImportance, importance},
-    requirement::RequirementResult,
-};
+use super::importance::{KeyImportance, importance};
 use crate::{
-    plan::PassingShare,
     run::{CaseRow, CaseVerdict},
     store::{MergedTable, SweepHeader, number, table_sha256, verdict_counts},
 };
@@ -97,12 +94,18 @@ impl SweepSummary {
             missing: table.missing_count(),
             table_sha256: table_sha256(rows),
             verdicts: verdict_counts(table),
-            requirement: require.map(|require| RequirementResult::new(require, rows)),
+            requirement: require
+                .map(|require| RequirementResult::new(require, passed(rows), rows.len() as u64)),
             measures: measures(table),
             worst: worst_cases(rows, worst),
             refused: refused.take(MOST_REFUSED).collect(),
         }
     }
+}
+
+/// Number of cases that passed. A case that broke or could not be run has not.
+fn passed(rows: &[CaseRow]) -> u64 {
+    rows.iter().filter(|row| row.verdict == CaseVerdict::Pass).count() as u64
 }
 
 fn worst_cases(rows: &[CaseRow], count: usize) -> Vec<SmallestMargin> {

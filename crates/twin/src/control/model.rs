@@ -30,7 +30,7 @@ impl<'a> DeclaredModel<'a> {
     pub(super) fn new(setup: &'a RunSetup) -> Self {
         let robot = &setup.description.robot;
         Self {
-            dynamics: setup.declared_dynamics(),
+            dynamics: setup.known_dynamics(),
             followers: followers(robot),
             torque: vec![0.0; robot.dof()],
             held: SameInput::default(),

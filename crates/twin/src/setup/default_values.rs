@@ -22,7 +22,10 @@ pub(super) fn write_out(
     scenario.robot = whole.unwrap_or_else(|_| path.clone()).display().to_string();
     // The log has its own length.
     scenario.simulation.duration_s = clock.steps.map(|steps| clock.time_s(steps));
-    scenario.start = written_start(&description.robot, start);
+    // Keys of [uncertainty] name values of the start in the unit in which they are written.
+    if scenario.uncertainty.is_none() {
+        scenario.start = written_start(&description.robot, start);
+    }
     for motion in &mut scenario.motion {
         write_out_profile(motion);
         let rates = match motion {

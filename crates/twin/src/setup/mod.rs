@@ -13,6 +13,8 @@ mod run_setup;
 mod start;
 mod surroundings;
 mod timing;
+mod uncertain_case;
+mod uncertainty;
 mod written_at;
 
 pub(crate) use actuation::ControlPeriod;
@@ -21,3 +23,4 @@ pub use load::LoadRobot;
 pub use recorded::RecordedSetup;
 pub use run_setup::RunSetup;
 pub(crate) use surroundings::LARGEST_M;
+pub use uncertain_case::{CaseValue, UncertainCase};

@@ -24,6 +24,7 @@ use super::{
     start::{inside_limits, start},
     surroundings::{FirstStep, Surroundings, jumps, mobility},
     timing::RunTiming,
+    uncertain_case::UncertainCase,
     written_at::WrittenAt,
 };
 use crate::{
@@ -70,6 +71,8 @@ pub struct RunSetup {
     pub sensors: SensorSetup,
     /// The log whose joint states the run takes, in place of a simulation.
     pub recorded: Option<RecordedSetup>,
+    /// The case of `[uncertainty]` that it is; `None` for a scenario as it is written.
+    pub uncertain_case: Option<Box<UncertainCase>>,
     /// Warnings about the scenario; the robot's own warnings are in its description.
     pub warnings: Vec<Diagnostic>,
     /// Errors that matter for a simulation only: obstacles that overlap the robot at the start, and a run without an end.
@@ -125,7 +128,7 @@ impl RunSetup {
         scenario.check.extend(default_checks(&scenario, &description.robot));
         // From here on errors are collected, not returned: one call reports all sections.
         let robot = &description.robot;
-        found.keep(check_head(&scenario, place));
+        check_head(&scenario, place, &mut found);
         let start = found.keep(start(&scenario.start, place.key("start"), robot));
         let start = inside_limits(start, &scenario, robot, &mut warnings);
         let trajectory = found.keep(trajectory(&scenario, written, &description, &start, &mut warnings));
@@ -157,8 +160,7 @@ impl RunSetup {
         write_out(&mut scenario, &description, &clock, &start, written);
         // Only the scenario's own checks have lines; default checks follow them and have none.
         let check_lines = (0..own_checks).map(|at| place.key("check").item(at).line()).collect();
-        let Actuation { controller, resistances, sensors, mut payloads } = actuation;
-        payloads.extend(held);
+        let Actuation { controller, resistances, sensors, payloads } = actuation;
         Ok(Self {
             scenario,
             path: None,
@@ -172,11 +174,12 @@ impl RunSetup {
             obstacles,
             zones,
             bodies: moving,
-            payloads,
+            payloads: payloads.into_iter().chain(held).collect(),
             sensors,
             resistances,
             faults,
             recorded,
+            uncertain_case: None,
             warnings,
             for_simulation: Vec::new(),
             check_lines,
@@ -268,6 +271,11 @@ impl RunSetup {
     pub fn declared_dynamics(&self) -> RunDynamics<'_> {
         let gravity = self.clock.gravity_in_world;
         RunDynamics::new(&self.description.robot, &self.payloads, &self.resistances, gravity)
+    }
+
+    /// The dynamics that controllers know. In a case of `[uncertainty]` they are those of the scenario as it is written.
+    pub fn known_dynamics(&self) -> RunDynamics<'_> {
+        self.uncertain_case.as_ref().map_or_else(|| self.declared_dynamics(), |case| case.known_dynamics())
     }
 
     /// Largest effort and speed of each joint's actuator.

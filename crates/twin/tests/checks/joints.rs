@@ -288,6 +288,7 @@ fn cycle(limit_s: f64, edit: impl FnOnce(&mut Scenario)) -> CheckResult {
         tolerance_deg: None,
         tolerance_m: None,
         tolerance_mm: None,
+        passing: None,
         on_violation: congruent_scenario::OnViolation::Continue,
     };
     let mut scenario = scenario(servo(), Check::CycleTime(check));

@@ -138,6 +138,7 @@ fn limits_are_given_in_either_unit() {
             position_mm,
             orientation_rad: None,
             orientation_deg: None,
+            passing: None,
             on_violation: OnViolation::default(),
         })
     };
@@ -150,6 +151,7 @@ fn limits_are_given_in_either_unit() {
             minimum_mm,
             pairs: Vec::new(),
             ignore: Vec::new(),
+            passing: None,
             on_violation: OnViolation::default(),
         })
     };

@@ -7,7 +7,10 @@ use congruent_proximity::ObstacleMobility;
 use congruent_scenario::{Check, CheckKind, Expectation, FilePlace, Scenario};
 
 use super::tolerances::tolerances;
-use crate::{codes, setup::surroundings::paired_with_checks};
+use crate::{
+    codes,
+    setup::{surroundings::paired_with_checks, uncertainty::check_uncertainty},
+};
 
 /// Adds the errors of the checks and of the expectation to `found`; returns warnings.
 pub(in crate::setup) fn examine_checks(
@@ -30,6 +33,7 @@ pub(in crate::setup) fn examine_checks(
         found.extend(wrong);
         warnings.extend(wide);
     }
+    warnings.extend(check_uncertainty(scenario, place, found));
     warnings.extend(unwatched(scenario, place));
     found.extend(unexpected(scenario, place.key("expect")));
     if needs_shapes(scenario) {

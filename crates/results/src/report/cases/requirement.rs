@@ -1,22 +1,26 @@
 //! Whether a share of all possible cases passes, from those that ran: with an interval, and "not enough cases" as an answer.
 
 use schemars::JsonSchema;
-use serde::Serialize;
-
-use crate::{
-    plan::PassingShare,
-    run::{CaseRow, CaseVerdict},
-};
+use serde::{Deserialize, Serialize};
 
 /// Halvings of the interval in which a bound is searched: to the digits of a double.
 const HALVINGS: u32 = 60;
 /// Most cases that are suggested.
 const MOST_CASES: u64 = 1_000_000_000;
 
-/// The answer to the requirement of a plan.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+/// A share of all possible cases that must pass, and the confidence with which that must be known.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PassingShare {
+    /// The share, between 0 and 1; 1 is every case that runs.
+    pub passing: f64,
+    /// The confidence, between 0 and 1.
+    pub confidence: f64,
+}
+
+/// The answer to a required share.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RequirementResult {
-    /// The share of cases that must pass.
+    /// The share of cases that must pass; 1 if every case that runs must.
     pub passing: f64,
     /// The confidence with which that must be known.
     pub confidence: f64,
@@ -29,12 +33,12 @@ pub struct RequirementResult {
     /// The answer.
     pub verdict: RequirementVerdict,
     /// Number of cases with which the share that was found would be known well enough; left out if it is, or if none would do.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cases_needed: Option<u64>,
 }
 
 /// Whether a requirement is met.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum RequirementVerdict {
     /// At least the required share passes, with the confidence.
@@ -45,14 +49,26 @@ pub enum RequirementVerdict {
     NotEnoughCases,
 }
 
+impl RequirementVerdict {
+    /// The word in the place of the status of a check.
+    pub fn status_word(self) -> &'static str {
+        match self {
+            Self::Met => "pass",
+            Self::NotMet => "fail",
+            Self::NotEnoughCases => "unclear",
+        }
+    }
+}
+
 impl RequirementResult {
-    /// The answer from the rows of a sweep.
-    pub fn new(requirement: PassingShare, rows: &[CaseRow]) -> Self {
+    /// The answer from the number of cases that passed, of those that are counted.
+    pub fn new(requirement: PassingShare, passed: u64, counted: u64) -> Self {
         let PassingShare { passing, confidence } = requirement;
-        let counted = rows.len() as u64;
-        let passed = rows.iter().filter(|row| row.verdict == CaseVerdict::Pass).count() as u64;
         let interval = [lower_bound(passed, counted, confidence), upper_bound(passed, counted, confidence)];
         let verdict = match interval {
+            // That all possible cases pass is shown by no number of them: it is judged by those that ran.
+            _ if passing >= 1.0 && counted == 0 => RequirementVerdict::NotEnoughCases,
+            _ if passing >= 1.0 && passed == counted => RequirementVerdict::Met,
             [lower, _] if lower >= passing => RequirementVerdict::Met,
             [_, upper] if upper < passing => RequirementVerdict::NotMet,
             _ => RequirementVerdict::NotEnoughCases,
@@ -61,6 +77,15 @@ impl RequirementResult {
         let cases_needed = is_open.then(|| needed(requirement, passed, counted)).flatten();
         Self { passing, confidence, passed, counted, interval, verdict, cases_needed }
     }
+}
+
+/// How many of the worst of these values may be worse than what a share of all possible values keeps, with a confidence; `None` if the
+/// values are too few. The share of values beyond the one at this place is known in the same way as that of passing cases.
+pub(super) fn worst_left_out(requirement: PassingShare, counted: u64) -> Option<u64> {
+    let PassingShare { passing, confidence } = requirement;
+    // With one more left out the share would not be known well enough.
+    let is_known = |left_out: u64| at_most(left_out, counted, 1.0 - passing) <= 1.0 - confidence;
+    (0..counted).take_while(|&left_out| is_known(left_out)).last()
 }
 
 /// The share above which the share of passing cases is, with a confidence.
@@ -172,5 +197,25 @@ mod tests {
         assert!(lower_bound(299, 299, 0.95) >= 0.99 && lower_bound(298, 298, 0.95) < 0.99);
         let more = needed(requirement, 998, 1000);
         assert!(more.is_some_and(|more| more > 1000), "{more:?}");
+    }
+
+    #[test]
+    fn order_statistics_bound_a_quantile() {
+        let requirement = PassingShare { passing: 0.99, confidence: 0.95 };
+        // Tables of tolerance limits: 299 values for the worst of them, 473 for the second worst.
+        assert_eq!(worst_left_out(requirement, 298), None);
+        assert_eq!(worst_left_out(requirement, 299), Some(0));
+        assert_eq!(worst_left_out(requirement, 472), Some(0));
+        assert_eq!(worst_left_out(requirement, 473), Some(1));
+    }
+
+    #[test]
+    fn every_case_that_runs() {
+        let verdict = |passed, counted| {
+            RequirementResult::new(PassingShare { passing: 1.0, confidence: 0.95 }, passed, counted).verdict
+        };
+        assert_eq!(verdict(30, 30), RequirementVerdict::Met);
+        assert_eq!(verdict(29, 30), RequirementVerdict::NotMet);
+        assert_eq!(verdict(0, 0), RequirementVerdict::NotEnoughCases);
     }
 }

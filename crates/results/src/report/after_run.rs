@@ -1,5 +1,5 @@
-//! After a failed check of agreement: why do model and physics differ? The cause becomes a note of the check, which every
-//! report shows, and the whole diagnosis is in `report.json`.
+//! What is found after a run. After a failed check of agreement: why do model and physics differ? The cause becomes a note of the check,
+//! which every report shows, and the whole diagnosis is in `report.json`.
 
 use congruent_agreement::{
     compare::{CheckOptions, Grade, check, diagnose},
@@ -14,23 +14,27 @@ use congruent_proximity::MovingBodies;
 use congruent_scenario::CheckKind;
 use congruent_twin::{Outcome, Run, RunSetup, source::SimulatedPoses};
 
+use super::cases::UncertaintyReport;
+
 /// Differences below it are rounding, which has no cause. Unit: m or rad; kind: rounding of two chains of seven joints,
 /// worst seen 4e-15.
 const ROUNDING: f64 = 1e-12;
 
-/// Why checks failed.
+/// What was found after a run: why checks failed, and what the cases of `[uncertainty]` show.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Causes {
+pub struct AfterRun {
     /// Why model and twin differ, if a check of their agreement failed and the source is the physics.
     pub poses: Vec<ReportedDiagnosis>,
     /// What the samples show to be wrong with the twin, if a check failed.
     pub samples: Option<RunDiagnosis>,
+    /// The cases of `[uncertainty]`, if the scenario has some.
+    pub cases: Option<UncertaintyReport>,
 }
 
-impl Causes {
+impl AfterRun {
     /// The causes of a run whose poses are not diagnosed: it was placed at its setpoints, or the diagnosis is read back.
     pub fn from_samples(samples: Option<RunDiagnosis>) -> Self {
-        Self { poses: Vec::new(), samples }
+        Self { samples, ..Self::default() }
     }
 }
 
@@ -46,7 +50,8 @@ pub fn diagnose_run(run: &mut Run<'_>, outcome: &Outcome) -> Option<RunDiagnosis
         clock: &setup.clock,
         controller: setup.controller.kind,
         actuators: setup.actuator_limits(),
-        dynamics: setup.declared_dynamics(),
+        // What a case has that its controllers do not know is what is wrong.
+        dynamics: setup.known_dynamics(),
         bodies: MovingBodies::new(&setup.bodies, &setup.obstacles),
     };
     let (samples, clearance) = run.samples_and_clearance();
@@ -87,14 +92,14 @@ fn with_actuators(found: Option<RunDiagnosis>, outcome: &Outcome) -> Option<RunD
 
 /// Why checks of a finished run failed: what its samples show, and the cause of the first failed check of agreement, which
 /// becomes a note of that check.
-pub fn explain(run: &mut Run<'_>, outcome: &mut Outcome) -> Causes {
-    let mut causes = Causes::from_samples(diagnose_run(run, outcome));
+pub fn explain(run: &mut Run<'_>, outcome: &mut Outcome) -> AfterRun {
+    let mut causes = AfterRun::from_samples(diagnose_run(run, outcome));
     explain_poses(run.setup(), &mut outcome.checks, &mut causes);
     causes
 }
 
 /// Diagnoses the first failed check of agreement, if there is one, with its limits as tolerance.
-fn explain_poses(setup: &RunSetup, checks: &mut [CheckResult], causes: &mut Causes) {
+fn explain_poses(setup: &RunSetup, checks: &mut [CheckResult], causes: &mut AfterRun) {
     let is_failed =
         |check: &&mut CheckResult| check.check == CheckKind::Agreement && check.status == Status::Fail;
     let Some(check) = checks.iter_mut().find(is_failed) else { return };

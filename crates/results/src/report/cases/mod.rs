@@ -1,0 +1,12 @@
+//! The cases of `[uncertainty]`: what of a run each of them keeps, and what all of them show of each check.
+
+mod case_checks;
+mod requirement;
+mod sentence;
+mod uncertainty_report;
+
+pub use case_checks::CaseChecks;
+pub use requirement::{PassingShare, RequirementResult, RequirementVerdict};
+pub(super) use sentence::uncertainty_sentence;
+pub use sentence::{case_lines, cases_title, requirement_sentence, unfinished_words};
+pub use uncertainty_report::{CheckInCases, QuantityInCases, UncertaintyReport, UnfinishedCase, VariedValue};

@@ -1,0 +1,264 @@
+//! What all cases of `[uncertainty]` show of each check.
+
+use congruent_input::{Quantity, SiUnit};
+use congruent_monitors::verdict::{Bound, CheckResult, Status};
+use congruent_scenario::{CaseSampling, CheckKind, Scenario};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{
+    case_checks::{CaseChecks, CheckOfCase, ValueOfCase},
+    requirement::{PassingShare, RequirementResult, RequirementVerdict, worst_left_out},
+};
+
+/// Most cases without a result that are listed.
+const MOST_UNFINISHED: usize = 10;
+/// Values that differ by less are one, relative. Kind: rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// The cases of a scenario.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct UncertaintyReport {
+    /// Number of cases that the scenario asks for.
+    pub cases: u64,
+    /// Number of cases that ran, those without a result among them; fewer if the run was interrupted.
+    pub ran: u64,
+    /// How the values of the cases were chosen.
+    pub sampling: CaseSampling,
+    /// What varies.
+    pub varied: Vec<VariedValue>,
+    /// The answer of all checks together.
+    pub verdict: RequirementVerdict,
+    /// Each check that was evaluated, in the order of the scenario; default checks last.
+    pub checks: Vec<CheckInCases>,
+    /// Number of cases without a result: their runs broke, or could not begin. No check holds in them.
+    pub without_result: u64,
+    /// The first of these, with the reason.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub unfinished: Vec<UnfinishedCase>,
+}
+
+/// A value that varies.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct VariedValue {
+    /// The keys that get it, as of --set.
+    pub keys: Vec<String>,
+    /// Its distribution, in words.
+    pub distribution: String,
+}
+
+/// A case without a result.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct UnfinishedCase {
+    /// Number of the case, from 0.
+    pub case: u64,
+    /// Why there is no result.
+    pub error: String,
+}
+
+/// One check in all cases.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CheckInCases {
+    /// The kind of check.
+    pub check: CheckKind,
+    /// Line of the check in the scenario file, from 1.
+    pub line: Option<usize>,
+    /// Number of the check in the scenario, from 1.
+    pub number: usize,
+    /// Whether it holds in as many cases as it must.
+    pub requirement: RequirementResult,
+    /// The first case in which it does not hold; left out if it always does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub first_failing: Option<u64>,
+    /// Its quantities.
+    pub quantities: Vec<QuantityInCases>,
+}
+
+/// One quantity of a check in all cases.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct QuantityInCases {
+    /// Name of the quantity.
+    #[schemars(with = "String")]
+    pub quantity: Quantity,
+    /// Unit of limit and values; empty for a ratio.
+    #[schemars(with = "String")]
+    pub unit: SiUnit,
+    /// The limit, in that unit.
+    pub limit: f64,
+    /// Whether values must be at most the limit (`at_most`), at least the limit (`at_least`), or above it (`above`).
+    pub bound: Bound,
+    /// Whether it is the smallest distance of the pairs whose distance changes in the run.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub of_changing_pairs: bool,
+    /// The worst value of all cases; `null` if it is infinite.
+    pub worst: Option<f64>,
+    /// The case that has it.
+    pub worst_case: u64,
+    /// The median of the worst values of the cases; `null` if it is infinite.
+    pub median: Option<f64>,
+    /// The value that the required share of all possible cases keeps, with the confidence; `null` if the cases are too few, or if every case
+    /// must pass.
+    pub quantile: Option<f64>,
+}
+
+impl UncertaintyReport {
+    /// What cases show of a scenario, whose own run had these checks.
+    ///
+    /// # Panics
+    /// If the scenario has no `[uncertainty]`.
+    pub fn new(
+        scenario: &Scenario,
+        varied: Vec<VariedValue>,
+        own: &[CheckResult],
+        mut cases: Vec<CaseChecks>,
+    ) -> Self {
+        let settings = scenario.uncertainty.as_ref().expect("a scenario with cases has [uncertainty]");
+        cases.sort_by_key(|case| case.case);
+        let ran = cases.len() as u64;
+        let of_check = |(at, check): (usize, &CheckResult)| {
+            let passing = scenario.check.get(at).and_then(congruent_scenario::Check::passing).unwrap_or(1.0);
+            let share = PassingShare { passing, confidence: settings.confidence };
+            check_in_cases(check, at, share, &cases)
+        };
+        let mut checks: Vec<CheckInCases> = own.iter().enumerate().filter_map(of_check).collect();
+        if ran < settings.cases {
+            // What did not run may fail.
+            for check in checks.iter_mut().filter(|check| check.requirement.passing >= 1.0) {
+                if check.requirement.verdict == RequirementVerdict::Met {
+                    check.requirement.verdict = RequirementVerdict::NotEnoughCases;
+                }
+            }
+        }
+        let errors = || cases.iter().filter_map(|case| Some((case.case, case.checks.as_ref().err()?)));
+        let unfinished = errors().map(|(case, error)| UnfinishedCase { case, error: error.clone() });
+        Self {
+            cases: settings.cases,
+            ran,
+            sampling: settings.sampling,
+            varied,
+            verdict: together(&checks),
+            checks,
+            without_result: errors().count() as u64,
+            unfinished: unfinished.take(MOST_UNFINISHED).collect(),
+        }
+    }
+
+    /// The checks, those first that do not hold in as many cases as they must.
+    pub fn checks_failed_first(&self) -> Vec<&CheckInCases> {
+        let mut checks: Vec<&CheckInCases> = self.checks.iter().collect();
+        checks.sort_by_key(|check| check.requirement.verdict == RequirementVerdict::Met);
+        checks
+    }
+
+    /// Whether every case has run.
+    pub fn is_whole(&self) -> bool {
+        self.ran == self.cases
+    }
+}
+
+/// The answer of all checks: the worst of theirs. Without a check there is none.
+fn together(checks: &[CheckInCases]) -> RequirementVerdict {
+    let has = |verdict| checks.iter().any(|check| check.requirement.verdict == verdict);
+    if has(RequirementVerdict::NotMet) {
+        RequirementVerdict::NotMet
+    } else if has(RequirementVerdict::NotEnoughCases) || checks.is_empty() {
+        RequirementVerdict::NotEnoughCases
+    } else {
+        RequirementVerdict::Met
+    }
+}
+
+/// A check in all cases; `None` if there is nothing to check in any of them.
+fn check_in_cases(
+    own: &CheckResult,
+    at: usize,
+    share: PassingShare,
+    cases: &[CaseChecks],
+) -> Option<CheckInCases> {
+    let of_case = |case: &CaseChecks| case.checks.as_ref().ok().and_then(|checks| checks.get(at).cloned());
+    let found: Vec<(u64, Option<CheckOfCase>)> =
+        cases.iter().map(|case| (case.case, of_case(case))).collect();
+    let is_skipped =
+        |check: &Option<CheckOfCase>| check.as_ref().is_some_and(|check| check.status == Status::Skipped);
+    if own.status == Status::Skipped && found.iter().all(|(_, check)| is_skipped(check)) {
+        return None;
+    }
+    let holds = |check: &Option<CheckOfCase>| check.as_ref().is_some_and(CheckOfCase::holds);
+    let passed = found.iter().filter(|(_, check)| holds(check)).count() as u64;
+    Some(CheckInCases {
+        check: own.check,
+        line: own.line,
+        number: at + 1,
+        requirement: RequirementResult::new(share, passed, found.len() as u64),
+        first_failing: found.iter().find(|(_, check)| !holds(check)).map(|(case, _)| *case),
+        quantities: quantities(&found, share),
+    })
+}
+
+fn quantities(found: &[(u64, Option<CheckOfCase>)], share: PassingShare) -> Vec<QuantityInCases> {
+    let values = || found.iter().flat_map(|(_, check)| check.iter().flat_map(|check| &check.values));
+    let mut kinds: Vec<ValueOfCase> = Vec::new();
+    for value in values() {
+        if !kinds.iter().any(|kind| is_same(kind, value)) {
+            kinds.push(*value);
+        }
+    }
+    let quantity = |kind: &ValueOfCase| {
+        let value = |check: &Option<CheckOfCase>| {
+            let values = check.iter().flat_map(|check| &check.values);
+            values.into_iter().find(|value| is_same(kind, value)).map(|value| value.value)
+        };
+        // A case without a result is worse than any with one.
+        let of_case = |(case, check): &(u64, Option<CheckOfCase>)| match check {
+            Some(_) => value(check).map(|value| (*case, value)),
+            None => Some((*case, f64::NAN)),
+        };
+        let mut sorted: Vec<(u64, f64)> = found.iter().filter_map(of_case).collect();
+        sorted.sort_by(|a, b| worse_first(kind.bound, a.1, b.1).then(a.0.cmp(&b.0)));
+        in_cases(kind, &sorted, share)
+    };
+    let all: Vec<QuantityInCases> = kinds.iter().filter_map(quantity).collect();
+    // What is the same in all cases says nothing about them, as the distance of a pair that nothing moves.
+    let varies: Vec<QuantityInCases> = all.iter().filter(|quantity| varies(quantity)).cloned().collect();
+    if varies.is_empty() { all.into_iter().take(1).collect() } else { varies }
+}
+
+fn is_same(a: &ValueOfCase, b: &ValueOfCase) -> bool {
+    a.quantity == b.quantity && a.is_of_changing_pairs == b.is_of_changing_pairs
+}
+
+fn worse_first(bound: Bound, a: f64, b: f64) -> std::cmp::Ordering {
+    match (bound.is_worse(a, b), bound.is_worse(b, a)) {
+        (true, _) => std::cmp::Ordering::Less,
+        (_, true) => std::cmp::Ordering::Greater,
+        _ => std::cmp::Ordering::Equal,
+    }
+}
+
+fn in_cases(kind: &ValueOfCase, worst_first: &[(u64, f64)], share: PassingShare) -> Option<QuantityInCases> {
+    let &(worst_case, _) = worst_first.first()?;
+    let finite = |value: f64| value.is_finite().then_some(value);
+    let worst = worst_first.iter().map(|of| of.1).find(|value| !value.is_nan());
+    let left_out = worst_left_out(share, worst_first.len() as u64).filter(|_| share.passing < 1.0);
+    let quantile = left_out.and_then(|left_out| worst_first.get(usize::try_from(left_out).ok()?));
+    Some(QuantityInCases {
+        quantity: kind.quantity,
+        unit: kind.unit,
+        limit: kind.limit,
+        bound: kind.bound,
+        of_changing_pairs: kind.is_of_changing_pairs,
+        worst: worst.and_then(finite),
+        worst_case: worst_first.iter().find(|of| !of.1.is_nan()).map_or(worst_case, |of| of.0),
+        median: finite(worst_first[worst_first.len() / 2].1),
+        quantile: quantile.and_then(|of| finite(of.1)),
+    })
+}
+
+fn varies(quantity: &QuantityInCases) -> bool {
+    match (quantity.worst, quantity.median) {
+        (Some(worst), Some(median)) => {
+            (worst - median).abs() > ROUNDING * worst.abs().max(median.abs()) || quantity.quantile.is_some()
+        }
+        _ => true,
+    }
+}
