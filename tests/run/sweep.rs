@@ -165,7 +165,7 @@ fn plans_are_refused_with_what_to_write() {
         ("cases = 3\n[[vary]]\nkey = \"controller.stifness\"\nuniform = [1, 2]\n".to_owned(), "stiffness"),
         (format!("cases = 3\n{vary}uniform = [1, 2, 3]\n"), "array of 2"),
         ("cases = 3\n[[vary]]\nkey = \"name\"\nvalues = [\"a\"]\n".to_owned(), "cannot vary"),
-        ("cases = 3\n[[vary]]\nkey = 3\nvalues = [1]\n".to_owned(), "no list of keys"),
+        ("cases = 3\n[[vary]]\nkey = 3\nvalues = [1]\n".to_owned(), "a list of keys, not 3"),
         ("cases = 3\n[set]\n\"check.1.minimum_m\" = 0.03\n[[vary]]\nkey = \"check.clearance.minimum_m\"\nuniform = [0.01, 0.02]\n".to_owned(), "the same value is set by"),
         ("cases = 3\n[[vary]]\nkey = \"fault.9.mass_kg\"\nuniform = [1, 2]\n".to_owned(), "entries 1 to 1"),
         (

@@ -58,6 +58,7 @@ impl SweepPlan {
             // Each case has a seed of its own, which follows from that of the scenario.
             set: set.iter().filter(|change| !is_seed(change)).cloned().collect(),
             require: None,
+            varies_what_is_set: true,
             points: PointSource::new(sampling, seed, cases, steps),
             source,
         }))

@@ -55,6 +55,8 @@ pub struct SweepPlan {
     pub set: Vec<Override>,
     /// What the rows are judged by.
     pub require: Option<PassingShare>,
+    /// Whether a value that varies replaces one of `set`, as of the call that runs a scenario; in a plan both are a mistake.
+    pub(super) varies_what_is_set: bool,
     pub(super) points: PointSource,
     pub(super) source: Arc<SourceFile>,
 }
@@ -100,7 +102,10 @@ impl SweepPlan {
             self.varied.iter().zip(point).map(|(varied, share)| varied.distribution.value(share)).collect();
         let mut overrides = self.set.clone();
         for (varied, value) in self.varied.iter().zip(&values) {
-            overrides.extend(varied.keys.iter().map(|key| set(key, value).replacing()));
+            overrides.extend(varied.keys.iter().map(|key| {
+                let set = set(key, value);
+                if self.varies_what_is_set { set.replacing() } else { set }
+            }));
         }
         // A seed that the plan sets or varies is that of the run.
         let given = overrides.iter().find(|change| change.path().eq([SEED])).map(Override::whole_number);
@@ -195,6 +200,7 @@ fn checked(
         varied,
         set,
         require,
+        varies_what_is_set: false,
         points: PointSource::new(sampling, seed, cases, steps),
         source: Arc::clone(source),
     })
