@@ -47,7 +47,7 @@ fn enough_cases_pass() {
 }
 
 #[test]
-fn one_case_below_the_limit_leaves_the_share_open() {
+fn too_few_cases_are_an_answer_of_their_own() {
     let scratch = ScratchFolder::new();
     let wide = run(&scratch, &["uncertainty.cases=100", "check.clearance.minimum_mm=5"]);
     assert_eq!(wide.code, 4, "{wide:?}");

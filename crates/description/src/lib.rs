@@ -43,7 +43,7 @@ pub use robot_file::{
     DynamicsTable, InertialDigits, InertialFrame, InertialPlaces, InertialPoint, RobotFilePlaces, RowKey,
     TableDigits, ValuePlace, WrittenIgnore, WrittenLint, WrittenRobot, dh_text, robot_file_schema,
 };
-pub use set_values::{load_robot_set, robot_numbers};
+pub use set_values::load_robot_set;
 pub use tolerance_scale::ToleranceScale;
 pub use urdf::{
     JointDigits, LARGEST_GYRATION_M, LargeLinks, Misspelling, Misspelt, URDF_BYTES, UrdfPlaces, misspellings,

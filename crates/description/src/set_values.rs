@@ -2,7 +2,7 @@
 
 use std::{path::Path, sync::Arc};
 
-use congruent_input::{FileAccess, Findings, NumberAt, Override, SourceFile, toml_text::parse_document};
+use congruent_input::{FileAccess, Findings, Override, SourceFile};
 use congruent_robot::Robot;
 
 use crate::{
@@ -56,28 +56,4 @@ pub fn load_robot_set(
     let robot =
         of_model.into_iter().try_fold(description.robot.clone(), |robot, change| robot.with_value(change))?;
     Ok(RobotDescription { robot, ..description })
-}
-
-/// The numbers under a key of a robot, each with a key of its own: of its file, or of a link or joint. `overrides` are set before.
-///
-/// # Errors
-/// As [`load_robot_set`], or the key has something else than numbers. Empty if the robot file has no such key.
-pub fn robot_numbers(
-    path: &Path,
-    overrides: &[Override],
-    key: &Override,
-    access: &FileAccess,
-) -> Result<Vec<NumberAt>, Findings> {
-    if Robot::has_value(key) {
-        return Ok(load_robot_set(path, overrides, access)?.robot.numbers_at(key)?);
-    }
-    let path = file_of_robot(path)?;
-    if !is_toml(&path) {
-        let why = format!("{} is no robot file (robot.toml), which has such keys", path.display());
-        return Err(key.refused(&why).into());
-    }
-    let source = open(&path, access, ROBOT_FILE_BYTES)?;
-    let of_file = overrides.iter().filter(|change| !Robot::has_value(change));
-    let text = of_file.into_iter().try_fold(source.text.clone(), |text, change| change.edit_text(&text))?;
-    Ok(key.numbers_in(&parse_document(&text)?)?)
 }

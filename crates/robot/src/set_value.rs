@@ -46,7 +46,7 @@ impl Robot {
 
     /// The present value under a key, and the entry of it that the key names.
     fn value_at<'k>(&self, key: &'k Override) -> Result<(PartValue, Option<&'k str>), Diagnostic> {
-        let Place { kind, name, key: of, entry } = Place::new(key)?;
+        let PartKey { kind, name, key: of, entry } = PartKey::new(key)?;
         let found = if kind == "link" {
             let link = self.link(self.named_link(key, name)?);
             let inertia = link.inertia.as_ref().ok_or_else(|| key.refused("the link has no inertia"))?;
@@ -93,7 +93,7 @@ impl Robot {
     /// # Errors
     /// There is no such key, link or joint, or the value is of another kind; the help has the nearest name.
     pub fn with_value(&self, change: &Override) -> Result<Self, Diagnostic> {
-        let Place { kind, name, key, entry } = Place::new(change)?;
+        let PartKey { kind, name, key, entry } = PartKey::new(change)?;
         let set = SetValue { change, key, entry };
         if kind == "link" {
             let link = self.named_link(change, name)?;
@@ -111,7 +111,7 @@ impl Robot {
 }
 
 /// The parts of a key: `link.NAME.com_m.1`.
-struct Place<'a> {
+struct PartKey<'a> {
     kind: &'a str,
     name: &'a str,
     key: &'a str,
@@ -119,7 +119,7 @@ struct Place<'a> {
     entry: Option<&'a str>,
 }
 
-impl<'a> Place<'a> {
+impl<'a> PartKey<'a> {
     fn new(key: &'a Override) -> Result<Self, Diagnostic> {
         let path: Vec<&str> = key.path().collect();
         match path[..] {

@@ -2,10 +2,12 @@
 
 use std::path::Path;
 
-use congruent_description::robot_numbers;
-use congruent_input::{Diagnostic, FileAccess, Findings, NumberAt, Override};
+use congruent_description::{Robot, load_robot_set};
+use congruent_input::{Diagnostic, FileAccess, Findings, NumberAt, Override, toml_text::parse_document};
 use congruent_scenario::{ScenarioFile, robot_overrides, written_numbers};
 
+/// Largest robot file that is read. Kind: choice, as that of a plan.
+const MOST_BYTES: u64 = 1 << 20;
 /// The key of the robot's values.
 const ROBOT: &str = "robot";
 
@@ -34,4 +36,25 @@ impl NominalValues<'_> {
         let outer = |number: NumberAt| NumberAt { key: format!("{ROBOT}.{}", number.key), ..number };
         Ok(numbers.into_iter().map(outer).collect())
     }
+}
+
+/// The numbers of a robot under a key: of its file, or of a link or joint. Empty if the robot file has no such key.
+fn robot_numbers(
+    path: &Path,
+    overrides: &[Override],
+    key: &Override,
+    access: &FileAccess,
+) -> Result<Vec<NumberAt>, Findings> {
+    let loaded = load_robot_set(path, overrides, access)?;
+    if Robot::has_value(key) {
+        return Ok(loaded.robot.numbers_at(key)?);
+    }
+    if loaded.path.extension().is_none_or(|ending| ending != "toml") {
+        let why = format!("{} is no robot file (robot.toml), which has such keys", loaded.path.display());
+        return Err(key.refused(&why).into());
+    }
+    let text = access.read_named_text(&loaded.path, MOST_BYTES)?.text.clone();
+    let of_file = overrides.iter().filter(|change| !Robot::has_value(change));
+    let text = of_file.into_iter().try_fold(text, |text, change| change.edit_text(&text))?;
+    Ok(key.numbers_in(&parse_document(&text)?)?)
 }

@@ -33,7 +33,7 @@ impl CaseRunner<'_> {
         let CaseThreads { jobs, interrupt } = threads;
         let run = |case: u64| {
             Some(match self.report(&self.plan().case(case), interrupt)? {
-                Ok(report) => CaseChecks::of_run(case, &report),
+                Ok(report) => CaseChecks::new(case, &report.checks, report.error.as_deref()),
                 Err(error) => CaseChecks { case, checks: Err(error) },
             })
         };

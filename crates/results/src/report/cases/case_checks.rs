@@ -3,8 +3,6 @@
 use congruent_input::{Quantity, SiUnit};
 use congruent_monitors::verdict::{Bound, CheckResult, Status};
 
-use crate::report::RunReport;
-
 /// The checks of a case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CaseChecks {
@@ -34,11 +32,11 @@ pub(super) struct ValueOfCase {
 }
 
 impl CaseChecks {
-    /// What is kept of the run of a case.
-    pub fn of_run(case: u64, report: &RunReport) -> Self {
-        let checks = match &report.error {
-            Some(error) => Err(error.clone()),
-            None => Ok(report.checks.iter().map(CheckOfCase::new).collect()),
+    /// What is kept of the run of a case that had these checks, and that ended with an error if there is one.
+    pub fn new(case: u64, checks: &[CheckResult], error: Option<&str>) -> Self {
+        let checks = match error {
+            Some(error) => Err(error.to_owned()),
+            None => Ok(checks.iter().map(CheckOfCase::new).collect()),
         };
         Self { case, checks }
     }
