@@ -24,7 +24,7 @@ use super::{
     start::{inside_limits, start},
     surroundings::{FirstStep, Surroundings, jumps, mobility},
     timing::RunTiming,
-    uncertain_case::UncertainCase,
+    uncertain_case::{CaseValue, UncertainCase},
     written_at::WrittenAt,
 };
 use crate::{
@@ -276,6 +276,22 @@ impl RunSetup {
     /// The dynamics that controllers know. In a case of `[uncertainty]` they are those of the scenario as it is written.
     pub fn known_dynamics(&self) -> RunDynamics<'_> {
         self.uncertain_case.as_ref().map_or_else(|| self.declared_dynamics(), |case| case.known_dynamics())
+    }
+
+    /// This scenario as a case of `nominal`, whose values its controllers know.
+    #[must_use]
+    pub fn as_case(mut self, nominal: &Self, case: u64, values: Vec<CaseValue>) -> Self {
+        self.overrides.clone_from(&nominal.overrides);
+        self.uncertain_case = Some(Box::new(UncertainCase {
+            case,
+            values,
+            scenario: nominal.scenario.clone(),
+            robot: nominal.description.robot.clone(),
+            payloads: nominal.payloads.clone(),
+            resistances: nominal.resistances.clone(),
+            gravity_in_root_m_s2: nominal.clock.gravity_in_world,
+        }));
+        self
     }
 
     /// Largest effort and speed of each joint's actuator.

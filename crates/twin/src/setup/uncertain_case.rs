@@ -8,8 +8,6 @@ use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::run_setup::RunSetup;
-
 /// A case, with what its controllers know: the scenario as it is written.
 #[derive(Debug, Clone)]
 pub struct UncertainCase {
@@ -19,10 +17,10 @@ pub struct UncertainCase {
     pub values: Vec<CaseValue>,
     /// The scenario as it is written.
     pub scenario: Scenario,
-    robot: Robot,
-    payloads: Vec<RunPayload>,
-    resistances: Vec<JointResistance>,
-    gravity_in_root_m_s2: Vector3<f64>,
+    pub(super) robot: Robot,
+    pub(super) payloads: Vec<RunPayload>,
+    pub(super) resistances: Vec<JointResistance>,
+    pub(super) gravity_in_root_m_s2: Vector3<f64>,
 }
 
 /// A value of a case.
@@ -38,24 +36,5 @@ impl UncertainCase {
     /// The dynamics of the scenario as it is written.
     pub(crate) fn known_dynamics(&self) -> RunDynamics<'_> {
         RunDynamics::new(&self.robot, &self.payloads, &self.resistances, self.gravity_in_root_m_s2)
-    }
-}
-
-impl RunSetup {
-    /// This scenario as a case of `nominal`, whose values its controllers know.
-    #[must_use]
-    pub fn as_case(mut self, nominal: &Self, case: u64, values: Vec<CaseValue>) -> Self {
-        let uncertain = UncertainCase {
-            case,
-            values,
-            scenario: nominal.scenario.clone(),
-            robot: nominal.description.robot.clone(),
-            payloads: nominal.payloads.clone(),
-            resistances: nominal.resistances.clone(),
-            gravity_in_root_m_s2: nominal.clock.gravity_in_world,
-        };
-        self.overrides.clone_from(&nominal.overrides);
-        self.uncertain_case = Some(Box::new(uncertain));
-        self
     }
 }
