@@ -123,6 +123,12 @@ fn what_is_no_uncertainty_is_refused() {
         &with(&format!("{vary}uniform = [0.0, 1.0]\n[expect]\nverdict = \"fail\"\n")),
         "[uncertainty] is beside [expect]",
     );
+    let grid = format!("sampling = \"grid\"\n{vary}values = [0.0, 1.0]\n");
+    refused(&with(&grid), "cases = 3, and the grid has 2 combinations");
+    let keys: Vec<String> = (0..41).map(|key| format!("\"joints.damping.j{key}\"")).collect();
+    let each = |key: &String| format!("[[uncertainty.vary]]\nkey = {key}\nuniform = [0.0, 1.0]\n");
+    let many: String = keys.iter().map(each).collect();
+    refused(&with(&format!("sampling = \"sobol\"\n{many}")), "3 Sobol points of 41 keys");
     let misspelt = "[[uncertainty.vary]]\nkey = \"joints.frictoin\"\nuniform = [0.0, 1.0]\n";
     refused(&with(misspelt), "frictoin");
 }

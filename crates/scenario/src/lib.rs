@@ -59,5 +59,5 @@ pub use source::{
 };
 pub use spaces::{CylinderSettings, ObstacleSettings, ZoneSettings};
 pub use uncertainty::{
-    CaseSampling, NormalSettings, USUAL_CONFIDENCE, UncertaintySettings, VariedKeys, VarySettings,
+    CaseSampling, NormalSettings, UncertaintySettings, VariedKeys, VarySettings, usual_confidence,
 };

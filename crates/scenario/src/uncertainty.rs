@@ -10,9 +10,6 @@ use serde::{
 
 use crate::number::{inner_share, optional_array};
 
-/// Confidence with which a share of cases must be known, if no other is given.
-pub const USUAL_CONFIDENCE: f64 = 0.95;
-
 /// `[uncertainty]`: values that are not known exactly. The scenario runs as it is written, and then once for each case with other
 /// values, which the controllers do not know.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -53,8 +50,9 @@ fn independent() -> CaseSampling {
     CaseSampling::Random
 }
 
-fn usual_confidence() -> f64 {
-    USUAL_CONFIDENCE
+/// Confidence with which a share of cases must be known, if no other is given.
+pub fn usual_confidence() -> f64 {
+    0.95
 }
 
 /// Keys and one distribution.

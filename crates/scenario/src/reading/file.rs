@@ -114,6 +114,11 @@ impl ScenarioFile {
         &self.source.path
     }
 
+    /// The text of the file, with its path.
+    pub fn source(&self) -> &Arc<SourceFile> {
+        &self.source
+    }
+
     /// The robot's path, relative to the folder of the file.
     pub fn robot_path(&self) -> PathBuf {
         direct_path(&self.folder().join(&self.scenario.robot))

@@ -1,5 +1,7 @@
 //! The cases of `[uncertainty]` of a scenario as a plan.
 
+use std::sync::Arc;
+
 use congruent_input::{Diagnostic, Diagnostics, FileAccess, Findings, Override, is_standard_input};
 use congruent_results::report::VariedValue;
 use congruent_scenario::ScenarioFile;
@@ -7,13 +9,10 @@ use congruent_twin::RunSetup;
 
 use super::{
     nominal::NominalValues,
-    read::{SEED, SweepPlan, at, repeated},
+    read::{SEED, SweepPlan, at, checked_cases, repeated},
     varied::{VariedKey, varied},
 };
 use crate::{codes, sampling::PointSource};
-
-/// Largest scenario file that is read.
-const MOST_BYTES: u64 = 4 << 20;
 
 impl SweepPlan {
     /// The cases of `[uncertainty]`; `None` if the scenario has none.
@@ -40,11 +39,16 @@ impl SweepPlan {
         });
         let varied: Vec<VariedKey> = entries.flatten().collect();
         found.extend(repeated(std::iter::empty(), &varied));
-        let source = access.read_named_text(path, MOST_BYTES)?;
-        if found.has_error() {
-            return Err(found.in_file(&source).into());
-        }
-        let (seed, cases, sampling) = (setup.scenario.seed, uncertainty.cases, uncertainty.sampling);
+        let (seed, sampling) = (setup.scenario.seed, uncertainty.sampling);
+        // After errors the keys are not all there, of which the number of cases may follow.
+        let cases = if found.has_error() {
+            None
+        } else {
+            Some(checked_cases(sampling, Some(uncertainty.cases), &varied))
+        };
+        let place = file.place().key("uncertainty").key("cases");
+        let cases = cases.and_then(|cases| found.keep(cases.map_err(|fault| place.mark(fault))));
+        let Some(cases) = cases else { return Err(found.in_file(file.source()).into()) };
         let steps = varied.iter().map(|varied| varied.steps).collect();
         let is_seed = |change: &Override| change.path().eq([SEED]);
         Ok(Some(Self {
@@ -60,7 +64,7 @@ impl SweepPlan {
             require: None,
             varies_what_is_set: true,
             points: PointSource::new(sampling, seed, cases, steps),
-            source,
+            source: Arc::clone(file.source()),
         }))
     }
 

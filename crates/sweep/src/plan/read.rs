@@ -180,7 +180,10 @@ fn checked(
     let mut of_set = Vec::new();
     flatten("", &written.set, &mut of_set);
     found.extend(repeated(of_set.into_iter().map(|(key, _)| key), &varied));
-    let cases = found.keep(cases(written, &varied))?;
+    let given = written.cases.as_ref().map(|cases| *cases.get_ref());
+    let place = written.cases.as_ref().map_or(0..0, Spanned::span);
+    let cases = checked_cases(written.sampling, given, &varied).map_err(|fault| fault.at(place));
+    let cases = found.keep(cases)?;
     let require = written.require.as_ref().and_then(|require| {
         let checked = passing_share(*require.get_ref(), written.sampling);
         found.keep(checked.map_err(|fault| fault.at(require.span())))
@@ -245,32 +248,34 @@ pub(super) fn at(fault: Diagnostic, place: Range<usize>) -> Diagnostic {
     if fault.source.is_some() { fault } else { fault.at(place) }
 }
 
-fn cases(written: &WrittenPlan, varied: &[VariedKey]) -> Result<u64, Diagnostic> {
+/// The number of cases of these keys, if `given` is one that they can have.
+pub(super) fn checked_cases(
+    sampling: CaseSampling,
+    given: Option<u64>,
+    varied: &[VariedKey],
+) -> Result<u64, Diagnostic> {
     let fault = |message: String| Diagnostic::error(codes::sweep::CASES, message);
-    let place = written.cases.as_ref().map_or(0..0, Spanned::span);
-    let given = written.cases.as_ref().map(|cases| *cases.get_ref());
-    if written.sampling == CaseSampling::Grid {
+    if sampling == CaseSampling::Grid {
         let product = varied.iter().try_fold(1_u64, |product, varied| product.checked_mul(varied.steps));
-        let product =
-            product.ok_or_else(|| fault("the grid has more than 2^64 cases".to_owned()).at(0..0))?;
+        let product = product.ok_or_else(|| fault("the grid has more than 2^64 cases".to_owned()))?;
         return match given {
             Some(given) if given != product => {
                 let message = format!("cases = {given}, and the grid has {product} combinations");
-                Err(fault(message).at(place).with_help("leave cases out, or change steps and values"))
+                Err(fault(message).with_help("leave cases out, or change steps and values"))
             }
             _ => Ok(product),
         };
     }
     let Some(given) = given else {
         let message = "the plan does not say how many cases it has".to_owned();
-        return Err(fault(message).at(place).with_help("cases = 1000"));
+        return Err(fault(message).with_help("cases = 1000"));
     };
     if given == 0 {
-        return Err(fault("cases = 0 is no sweep".to_owned()).at(place).with_help("cases = 1000"));
+        return Err(fault("cases = 0 is no sweep".to_owned()).with_help("cases = 1000"));
     }
-    if written.sampling == CaseSampling::Sobol && (given > MOST_SOBOL || varied.len() > MOST_DIMENSIONS) {
+    if sampling == CaseSampling::Sobol && (given > MOST_SOBOL || varied.len() > MOST_DIMENSIONS) {
         let message = format!("{given} Sobol points of {} keys", varied.len());
-        return Err(fault(message).at(place).with_help(format!(
+        return Err(fault(message).with_help(format!(
             "at most {MOST_SOBOL} cases and {MOST_DIMENSIONS} keys; sampling = \"latin_hypercube\" has no such limit"
         )));
     }

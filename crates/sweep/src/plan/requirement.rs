@@ -2,7 +2,7 @@
 
 use congruent_input::Diagnostic;
 use congruent_results::report::PassingShare;
-use congruent_scenario::CaseSampling;
+use congruent_scenario::{CaseSampling, Range};
 
 use super::written::WrittenRequirement;
 use crate::codes;
@@ -15,7 +15,7 @@ pub(super) fn passing_share(
     let fault = |message: String| Diagnostic::error(codes::sweep::REQUIREMENT, message);
     let WrittenRequirement { passing, confidence } = written;
     for (name, value) in [("passing", passing), ("confidence", confidence)] {
-        if !(value > 0.0 && value < 1.0) {
+        if !Range::InnerShare.contains(value) {
             return Err(fault(format!("{name} = {value} is not between 0 and 1, without both")).with_help(
                 "passing = 0.99 and confidence = 0.95: that every case passes, no number of cases shows",
             ));

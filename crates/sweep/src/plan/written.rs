@@ -4,7 +4,7 @@ use schemars::{JsonSchema, Schema, schema_for};
 use serde::Deserialize;
 use toml::Spanned;
 
-use congruent_scenario::{CaseSampling, USUAL_CONFIDENCE, VarySettings};
+use congruent_scenario::{CaseSampling, VarySettings, usual_confidence};
 
 /// A plan file, `*.sweep.toml`.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -49,10 +49,6 @@ pub(super) struct WrittenRequirement {
     /// Confidence, below 1.
     #[serde(default = "usual_confidence")]
     pub(super) confidence: f64,
-}
-
-fn usual_confidence() -> f64 {
-    USUAL_CONFIDENCE
 }
 
 /// The schema of plan files.

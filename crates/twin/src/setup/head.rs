@@ -1,12 +1,12 @@
 //! The head of a scenario: its version, its name and its seed.
 
-use congruent_input::{Diagnostic, Diagnostics};
+use congruent_input::Diagnostic;
 use congruent_scenario::{FilePlace, SCHEMA_VERSION, Scenario};
 
 use crate::codes;
 
 /// The checks that the reader of a file does, for a scenario that was made in code.
-pub(super) fn check_head(scenario: &Scenario, place: FilePlace<'_>, found: &mut Diagnostics) {
+pub(super) fn check_head(scenario: &Scenario, place: FilePlace<'_>) -> Result<(), Diagnostic> {
     let Scenario { schema_version, name, seed, .. } = scenario;
     let error = if *schema_version != SCHEMA_VERSION {
         Diagnostic::error(
@@ -20,7 +20,7 @@ pub(super) fn check_head(scenario: &Scenario, place: FilePlace<'_>, found: &mut 
         let message = format!("seed = {seed} is above {}, the largest integer of TOML", i64::MAX);
         place.key("seed").mark(Diagnostic::error(codes::scenario::SEED, message))
     } else {
-        return;
+        return Ok(());
     };
-    found.push(error);
+    Err(error)
 }

@@ -128,7 +128,7 @@ impl RunSetup {
         scenario.check.extend(default_checks(&scenario, &description.robot));
         // From here on errors are collected, not returned: one call reports all sections.
         let robot = &description.robot;
-        check_head(&scenario, place, &mut found);
+        found.keep(check_head(&scenario, place));
         let start = found.keep(start(&scenario.start, place.key("start"), robot));
         let start = inside_limits(start, &scenario, robot, &mut warnings);
         let trajectory = found.keep(trajectory(&scenario, written, &description, &start, &mut warnings));

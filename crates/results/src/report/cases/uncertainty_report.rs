@@ -175,27 +175,27 @@ fn check_in_cases(
     share: PassingShare,
     cases: &[CaseChecks],
 ) -> Option<CheckInCases> {
-    let of_case = |case: &CaseChecks| case.checks.as_ref().ok().and_then(|checks| checks.get(at).cloned());
-    let found: Vec<(u64, Option<CheckOfCase>)> =
-        cases.iter().map(|case| (case.case, of_case(case))).collect();
-    let is_skipped =
-        |check: &Option<CheckOfCase>| check.as_ref().is_some_and(|check| check.status == Status::Skipped);
-    if own.status == Status::Skipped && found.iter().all(|(_, check)| is_skipped(check)) {
+    let found: Vec<(u64, Option<&CheckOfCase>)> = cases
+        .iter()
+        .map(|case| (case.case, case.checks.as_ref().ok().and_then(|checks| checks.get(at))))
+        .collect();
+    let is_skipped = |check: Option<&CheckOfCase>| check.is_some_and(|check| check.status == Status::Skipped);
+    if own.status == Status::Skipped && found.iter().all(|(_, check)| is_skipped(*check)) {
         return None;
     }
-    let holds = |check: &Option<CheckOfCase>| check.as_ref().is_some_and(CheckOfCase::holds);
-    let passed = found.iter().filter(|(_, check)| holds(check)).count() as u64;
+    let holds = |check: Option<&CheckOfCase>| check.is_some_and(CheckOfCase::holds);
+    let passed = found.iter().filter(|(_, check)| holds(*check)).count() as u64;
     Some(CheckInCases {
         check: own.check,
         line: own.line,
         number: at + 1,
         requirement: RequirementResult::new(share, passed, found.len() as u64),
-        first_failing: found.iter().find(|(_, check)| !holds(check)).map(|(case, _)| *case),
+        first_failing: found.iter().find(|(_, check)| !holds(*check)).map(|(case, _)| *case),
         quantities: quantities(&found, share),
     })
 }
 
-fn quantities(found: &[(u64, Option<CheckOfCase>)], share: PassingShare) -> Vec<QuantityInCases> {
+fn quantities(found: &[(u64, Option<&CheckOfCase>)], share: PassingShare) -> Vec<QuantityInCases> {
     let values = || found.iter().flat_map(|(_, check)| check.iter().flat_map(|check| &check.values));
     let mut kinds: Vec<ValueOfCase> = Vec::new();
     for value in values() {
@@ -204,14 +204,13 @@ fn quantities(found: &[(u64, Option<CheckOfCase>)], share: PassingShare) -> Vec<
         }
     }
     let quantity = |kind: &ValueOfCase| {
-        let value = |check: &Option<CheckOfCase>| {
-            let values = check.iter().flat_map(|check| &check.values);
-            values.into_iter().find(|value| is_same(kind, value)).map(|value| value.value)
+        let value = |check: &CheckOfCase| {
+            check.values.iter().find(|value| is_same(kind, value)).map(|value| value.value)
         };
         // A case without a result is worse than any with one.
-        let of_case = |(case, check): &(u64, Option<CheckOfCase>)| match check {
-            Some(_) => value(check).map(|value| (*case, value)),
-            None => Some((*case, f64::NAN)),
+        let of_case = |&(case, check): &(u64, Option<&CheckOfCase>)| match check {
+            Some(check) => value(check).map(|value| (case, value)),
+            None => Some((case, f64::NAN)),
         };
         let mut sorted: Vec<(u64, f64)> = found.iter().filter_map(of_case).collect();
         sorted.sort_by(|a, b| worse_first(kind.bound, a.1, b.1).then(a.0.cmp(&b.0)));
