@@ -53,6 +53,7 @@ impl PreparedScenario {
         };
         let case = setup.scenario.uncertainty.as_ref().and_then(|uncertainty| uncertainty.case);
         let runner = CaseRunner::new(&plan, access.clone()).with_controllers_of(&setup);
+        runner.check_ends()?;
         runner.first_setup()?;
         if let Some(case) = case {
             let mut setup = runner.setup(&plan.case(case))?;

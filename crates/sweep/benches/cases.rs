@@ -1,11 +1,12 @@
-//! What a case of a sweep costs beside its run: 20 cases of `scenarios/ur5e_payload.sweep.toml`, set up and run as rows, and the same
-//! runs alone, set up before the clock starts.
+//! What a case of a sweep costs beside its run: cases of `scenarios/ur5e_payload.sweep.toml` with a motion of 1 s, set up and run as
+//! rows, and the same runs alone, set up before the clock starts.
 //!
-//! The difference of the two is the sweep: reading the scenario, planning, the report, the cause and the row.
+//! The difference of the two is the sweep: reading the scenario, planning, the report, the cause and the row. `-- --include-ignored`
+//! runs 10,000 cases as well, which takes several minutes.
 
 use std::{path::Path, sync::atomic::AtomicBool};
 
-use congruent_input::FileAccess;
+use congruent_input::{FileAccess, Override};
 use congruent_monitors::NoRecorder;
 use congruent_sweep::{
     plan::SweepPlan,
@@ -14,6 +15,7 @@ use congruent_sweep::{
 use congruent_twin::{Run, RunSetup};
 
 const CASES: u64 = 20;
+const MANY_CASES: u64 = 10_000;
 
 fn main() {
     divan::main();
@@ -21,37 +23,53 @@ fn main() {
 
 fn plan() -> SweepPlan {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/ur5e_payload.sweep.toml");
-    SweepPlan::read(&path, &FileAccess::default()).expect("the plan is part of the project")
+    let mut plan = SweepPlan::read(&path, &FileAccess::default()).expect("the plan is part of the project");
+    plan.set.push(Override::parse("motion.1.duration_s=1.0").expect("it has a key and a value"));
+    plan
 }
 
-#[divan::bench]
-fn bare_runs(bencher: divan::Bencher<'_, '_>) {
+/// So many runs on threads, of setups that repeat after [`CASES`].
+fn run_bare(bencher: divan::Bencher<'_, '_>, cases: u64, jobs: usize) {
     let plan = plan();
     let runner = CaseRunner::new(&plan, FileAccess::default());
     let setups: Vec<RunSetup> =
         (0..CASES).map(|case| runner.setup(&plan.case(case)).expect("the case runs")).collect();
-    bencher.bench_local(|| {
-        for setup in &setups {
-            let mut run = Run::new(setup).expect("the scenario runs").on_one_thread();
-            let (_, result) = run.finish(&mut setup.checks(), &mut NoRecorder, |_| ());
-            result.expect("the physics holds");
-        }
-    });
-}
-
-#[divan::bench]
-fn rows(bencher: divan::Bencher<'_, '_>) {
-    let plan = plan();
-    let runner = CaseRunner::new(&plan, FileAccess::default());
     let interrupt = AtomicBool::new(false);
-    bencher.bench_local(|| (0..CASES).filter_map(|case| runner.run(case, &interrupt)).count());
+    let run = |case: u64| {
+        let setup = &setups[usize::try_from(case % CASES).expect("a small number")];
+        let mut run = Run::new(setup).expect("the scenario runs").on_one_thread();
+        let (_, result) = run.finish(&mut setup.checks(), &mut NoRecorder, |_| ());
+        result.expect("the physics holds");
+        Some(())
+    };
+    bencher.bench_local(|| run_cases(0..cases, jobs, &interrupt, run, |()| Ok::<(), ()>(())));
 }
 
-#[divan::bench]
-fn rows_on_two_threads(bencher: divan::Bencher<'_, '_>) {
+/// So many cases of the plan on threads.
+fn run_rows(bencher: divan::Bencher<'_, '_>, cases: u64, jobs: usize) {
     let plan = plan();
     let runner = CaseRunner::new(&plan, FileAccess::default());
     let interrupt = AtomicBool::new(false);
     let run = |case: u64| runner.run(case, &interrupt);
-    bencher.bench_local(|| run_cases(0..CASES, 2, &interrupt, run, |_| Ok::<(), ()>(())));
+    bencher.bench_local(|| run_cases(0..cases, jobs, &interrupt, run, |_| Ok::<(), ()>(())));
+}
+
+#[divan::bench(args = [1, 2])]
+fn bare_runs(bencher: divan::Bencher<'_, '_>, threads: usize) {
+    run_bare(bencher, CASES, threads);
+}
+
+#[divan::bench(args = [1, 2])]
+fn rows(bencher: divan::Bencher<'_, '_>, threads: usize) {
+    run_rows(bencher, CASES, threads);
+}
+
+#[divan::bench(ignore, sample_count = 1, sample_size = 1)]
+fn ten_thousand_bare_runs(bencher: divan::Bencher<'_, '_>) {
+    run_bare(bencher, MANY_CASES, 2);
+}
+
+#[divan::bench(ignore, sample_count = 1, sample_size = 1)]
+fn ten_thousand_rows(bencher: divan::Bencher<'_, '_>) {
+    run_rows(bencher, MANY_CASES, 2);
 }

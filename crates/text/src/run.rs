@@ -6,9 +6,9 @@ use congruent_fault_diagnosis::RunDiagnosis;
 use congruent_input::display::quantity;
 use congruent_monitors::verdict::CheckResult;
 use congruent_results::report::{
-    RunReport, UncertaintyReport, case_lines, cases_title, lines, unfinished_words, verdict_line,
+    RunReport, UncertaintyReport, VariedValue, case_lines, cases_title, lines, unfinished_words, verdict_line,
 };
-use congruent_twin::source::ActuatorUse;
+use congruent_twin::{CaseValue, source::ActuatorUse};
 
 use super::layout::paragraph;
 
@@ -36,6 +36,9 @@ pub fn run_text(report: &RunReport) -> String {
     for servo in &report.servos {
         let _ = writeln!(text, "  motion {}   {servo}", servo.motion);
     }
+    if report.uncertainty.is_some() {
+        let _ = writeln!(text, "  with the values of the file");
+    }
     for check in report.checks_failed_first() {
         checked(&mut text, check);
     }
@@ -47,7 +50,7 @@ pub fn run_text(report: &RunReport) -> String {
         in_cases(&mut text, report, cases);
     }
     if let Some(case) = &report.case {
-        let values: Vec<String> = case.values.iter().map(|of| format!("{} = {}", of.key, of.value)).collect();
+        let values: Vec<String> = case.values.iter().map(CaseValue::words).collect();
         text += &paragraph(&format!("case {}: {}", case.case, values.join(", ")), 2, 4);
     }
     for fault in &report.faults {
@@ -69,18 +72,22 @@ fn length_of(report: &RunReport) -> String {
     }
 }
 
-/// What all cases show: first those checks that do not hold in as many as they must.
+/// What all cases show: first those checks that do not pass in as many as they must.
 fn in_cases(text: &mut String, report: &RunReport, cases: &UncertaintyReport) {
-    *text += &paragraph(&cases_title(cases), 2, 4);
+    let varied: Vec<String> = cases.varied.iter().map(VariedValue::words).collect();
+    *text += &paragraph(&format!("{}: {}", cases_title(cases), varied.join("; ")), 2, 4);
     for check in cases.checks_failed_first() {
-        let status = check.requirement.verdict.status_word();
-        labelled(text, [check.check.word(), status], &case_lines(check));
+        let mut lines = case_lines(cases, check);
+        if let (true, Some(last)) = (check.is_default, lines.last_mut()) {
+            *last += " (default)";
+        }
+        labelled(text, [check.check.word(), check.requirement.verdict.status_word()], &lines);
     }
     for line in unfinished_words(cases) {
         *text += &paragraph(&line, 2, 4);
     }
-    if let Some(command) = report.command_of_case() {
-        let _ = writeln!(text, "  to see the first case that fails: {command}");
+    if let Some((what, command)) = report.command_of_case() {
+        let _ = writeln!(text, "  to see {what}: {command}");
     }
 }
 

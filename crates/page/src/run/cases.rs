@@ -1,52 +1,79 @@
 //! The cases of `[uncertainty]`: in how many of them each check holds, and the worst values.
 
 use congruent_results::report::{
-    CheckInCases, RequirementVerdict, RunReport, case_lines, cases_title, unfinished_words,
+    CaseOfRun, CheckInCases, QuantityWords, RequirementVerdict, RunReport, UncertaintyReport, cases_title,
+    passes_in, unfinished_words,
 };
 use maud::{Markup, html};
 
-use crate::parts::{BadgeKind, badge};
+use crate::parts::{BadgeKind, badge, capitalised};
 
-/// The table of checks, those first that do not hold in enough cases; nothing for a scenario without cases. A case that ran alone has
-/// its values here.
+/// What varies, and the table of checks, those first that do not pass in enough cases; nothing for a scenario without cases. A case that
+/// ran alone has its values here.
 pub(super) fn cases(report: &RunReport) -> Markup {
     if let Some(case) = &report.case {
-        return html! {
-            section {
-                h2 { "Case " (case.case) }
-                p { "The arm has these values, which its controllers do not know." }
-                table {
-                    thead { tr { th { "key" } th { "value" } } }
-                    @for of in &case.values { tr { th scope="row" { (of.key) } td { (of.value) } } }
-                }
-            }
-        };
+        return one_case(case);
     }
     let Some(cases) = &report.uncertainty else { return html! {} };
     html! {
         section {
-            h2 { (cases_title(cases)) }
+            h2 { (capitalised(&cases_title(cases))) }
+            table {
+                thead { tr { th { "what varies" } th { "values" } } }
+                @for varied in &cases.varied {
+                    tr { th scope="row" { code { (varied.keys.join(", ")) } } td { (varied.distribution) } }
+                }
+            }
             table.checks {
-                thead { tr { th { "check" } th { "result" } th { "holds in, and its values" } } }
-                @for check in cases.checks_failed_first() { (row(check)) }
+                thead { tr { th { "check" } th { "result" } th { "quantity" } th { "of all cases" } th { "worst" } th { "median" } th { "limit" } } }
+                @for check in cases.checks_failed_first() { (rows(cases, check)) }
             }
             @for line in unfinished_words(cases) { p { (line) } }
-            @if let Some(command) = report.command_of_case() { p { "To see the first case that fails: " code { (command) } } }
+            @if let Some((what, command)) = report.command_of_case() { p { "To see " (what) ": " code { (command) } } }
+            p.small { "Everything else on this page is the run with the values of the file." }
         }
     }
 }
 
-fn row(check: &CheckInCases) -> Markup {
+fn one_case(case: &CaseOfRun) -> Markup {
+    html! {
+        section {
+            h2 { "Case " (case.case) }
+            p { "The run has these values. Controllers know the masses, frictions and robot of the file." }
+            table {
+                thead { tr { th { "key" } th { "value" } th { "in the file" } } }
+                @for of in &case.values {
+                    tr { th scope="row" { code { (of.key) } } td { (of.shown()) } td { @if let Some(value) = of.in_file { (value) } } }
+                }
+            }
+        }
+    }
+}
+
+fn rows(cases: &UncertaintyReport, check: &CheckInCases) -> Markup {
     let outcome = match check.requirement.verdict {
         RequirementVerdict::Met => BadgeKind::Good,
         RequirementVerdict::NotMet => BadgeKind::Bad,
         RequirementVerdict::NotEnoughCases => BadgeKind::Unclear,
     };
+    let words = |of| QuantityWords::new(of, check.requirement.passing);
     html! {
-        tr {
-            th scope="row" { (check.check) @if let Some(line) = check.line { span.small { " line " (line) } } }
-            td { (badge(outcome, check.requirement.verdict.status_word())) }
-            td { @for line in case_lines(check) { p { (line) } } }
+        tbody {
+            tr {
+                th scope="row" { (check.check) @if check.is_default { span.small { " (default)" } } @if let Some(line) = check.line { span.small { " line " (line) } } }
+                td { (badge(outcome, check.requirement.verdict.status_word())) }
+                td colspan="5" { (passes_in(cases, check)) }
+            }
+            @for QuantityWords { what, kept, worst, median, limit } in check.quantities.iter().map(words) {
+                tr {
+                    td.again {} td.again {}
+                    td data-label="quantity" { (what) }
+                    td data-label="of all cases" { (kept.unwrap_or_default()) }
+                    td data-label="worst" { (worst) }
+                    td data-label="median" { (median.unwrap_or_else(|| "the same".to_owned())) }
+                    td data-label="limit" { (limit.unwrap_or_default()) }
+                }
+            }
         }
     }
 }

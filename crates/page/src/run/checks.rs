@@ -16,6 +16,9 @@ use crate::parts::{BadgeKind, BarScale, Pointer, UsedShare, badge, value};
 /// Quantities of a check that are in the table; the report has all, as of every pair below a clearance.
 const MOST_MEASURES: usize = 12;
 
+/// Which run the tables are of, if there are cases with other values.
+const WITH_FILE: &str = " with the values of the file";
+
 /// The tables: of the checks that failed, and of the others, which are folded if any failed.
 pub(super) fn checks(report: &RunReport, run: &RunContent) -> Markup {
     let (failed, others): (Vec<_>, Vec<_>) = report
@@ -30,11 +33,11 @@ pub(super) fn checks(report: &RunReport, run: &RunContent) -> Markup {
         section {
             @if report.checks.is_empty() { h2 { "Checks" } p { "The scenario has no check." } }
             @else if failed.is_empty() {
-                h2 { "What was checked" }
+                h2 { "What was checked" @if report.uncertainty.is_some() { (WITH_FILE) } }
                 (table(&others))
                 (BarScale::words())
             } @else {
-                h2 { "The checks that failed" }
+                h2 { "The checks that failed" @if report.uncertainty.is_some() { (WITH_FILE) } }
                 (table(&failed))
                 (BarScale::words())
                 @if !others.is_empty() {

@@ -129,8 +129,9 @@ fn proved(report: &RunReport) -> Option<String> {
     let measures = conclusive().map(|check| check.measures.len()).sum::<usize>();
     let samples = conclusive().map(|check| check.samples).max().unwrap_or_default();
     let quantities = if measures == 1 { "quantity is" } else { "quantities are" };
+    let with = if report.uncertainty.is_some() { "With the values of the file " } else { "" };
     let mut text = format!(
-        "{measures} {quantities} within the limits, in {} at {samples} samples.",
+        "{with}{measures} {quantities} within the limits, in {} at {samples} samples.",
         counted(conclusive().count(), "check")
     );
     if let Some(nearest) = tightest(report) {

@@ -36,8 +36,8 @@ pub(super) fn run_page(report: &RunReport, run: &RunContent, folder: &Path) -> S
             (folded("Everything else over time", &plots.others()))
             (folded("All joints", &joints(run, &plots.plots)))
         } @else {
-            (checks(report, run))
             (cases(report))
+            (checks(report, run))
             (causes(report))
             section { h2 { "The arm" } (scene(report, run)) }
             (run.events.section(report))

@@ -19,14 +19,14 @@ mod verdict_sentence;
 pub use after_run::{AfterRun, diagnose_run, explain};
 pub use annotations::github_annotations;
 pub use cases::{
-    CaseChecks, CheckInCases, PassingShare, QuantityInCases, RequirementResult, RequirementVerdict,
-    UncertaintyReport, UnfinishedCase, VariedValue, case_lines, cases_title, requirement_sentence,
-    unfinished_words,
+    CaseChecks, CheckInCases, PassingShare, QuantityInCases, QuantityWords, RequirementResult,
+    RequirementVerdict, UncertaintyReport, UnfinishedCase, VariedValue, case_lines, cases_title, passes_in,
+    requirement_sentence, unfinished_words,
 };
 pub use earlier::earlier_report;
 pub use fault_table::{DetectedBy, FaultRow, FaultTable};
 pub use junit::write_junit;
-pub use run_report::{LinkSource, MotionTimes, RunClockReport, RunReport, Versions};
+pub use run_report::{CaseOfRun, LinkSource, MotionTimes, RunClockReport, RunReport, Versions};
 pub use sentence::{
     is_not_reached, joint_limit_words, limit_words, lines, margin_words, not_finite_words, quantity_words,
     sentence_at, share_in_full, value_and_margin,

@@ -96,11 +96,11 @@ fn not_read<'de, D: Deserializer<'de>, T>(value: D) -> Result<Vec<T>, D::Error> 
 }
 
 /// A case of `[uncertainty]` that ran alone.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CaseOfRun {
     /// Number of the case, from 0.
     pub case: u64,
-    /// Its values, which controllers do not know.
+    /// Its values.
     pub values: Vec<CaseValue>,
 }
 
@@ -270,9 +270,8 @@ impl RunReport {
         let results = || self.checks.iter().map(|check| (check.check, check.status));
         let own = judge(&self.expected, &self.checks);
         match &self.uncertainty {
-            Some(cases) if self.error.is_none() && own == Verdict::AsExpected => {
-                let sentence = verdict_sentence(own, &self.expected, results());
-                uncertainty_sentence(&sentence, cases)
+            Some(cases) if self.error.is_none() => {
+                uncertainty_sentence(own, &verdict_sentence(own, &self.expected, results()), cases)
             }
             _ => verdict_sentence(self.verdict, &self.expected, results()),
         }
@@ -288,11 +287,22 @@ impl RunReport {
         words.chain(self.overrides.iter().map(quoted)).chain(seed).collect::<Vec<_>>().join(" ")
     }
 
-    /// The command that runs the first case of `[uncertainty]` in which a check fails, with page and recording.
-    pub fn command_of_case(&self) -> Option<String> {
+    /// What is worth seeing of the cases of `[uncertainty]`, and the command that runs it with page and recording: the first case in which
+    /// a check fails, or of the first quantity the worst.
+    pub fn command_of_case(&self) -> Option<(&'static str, String)> {
         let checks = self.uncertainty.as_ref()?.checks_failed_first();
-        let case = checks.into_iter().find_map(|check| check.first_failing)?;
-        Some(format!("{} --set uncertainty.case={case}", self.command()))
+        let failing = checks.iter().find_map(|check| check.first_failing);
+        let worst =
+            || checks.iter().flat_map(|check| &check.quantities).map(|quantity| quantity.worst_case).next();
+        match failing {
+            Some(case) => Some(("the first case that fails", self.command_of(case))),
+            None => Some(("the worst case", self.command_of(worst()?))),
+        }
+    }
+
+    /// The command that runs a case of `[uncertainty]` alone.
+    pub(super) fn command_of(&self, case: u64) -> String {
+        format!("{} --set uncertainty.case={case}", self.command())
     }
 
     /// The checks, those that failed first.

@@ -7,7 +7,7 @@ use congruent_scenario::{CheckKind, Expectation};
 use congruent_twin::RunSetup;
 
 use super::{
-    cases::{CheckInCases, RequirementVerdict, case_lines},
+    cases::{CheckInCases, RequirementVerdict, UncertaintyReport, case_lines, unfinished_words},
     run_report::{RunClockReport, RunReport},
     sentence::lines,
     suite::{CasePlace, Clock, Reason, TestCase, TestResult, TestSuite},
@@ -18,8 +18,9 @@ impl RunReport {
     pub fn test_suite(&self) -> TestSuite {
         let checks = self.checks.iter().enumerate();
         let mut cases: Vec<TestCase> = checks.map(|(index, check)| self.case(index, check)).collect();
-        let in_cases = self.uncertainty.iter().flat_map(|cases| &cases.checks);
-        cases.extend(in_cases.map(|check| self.in_cases(check)));
+        if let Some(uncertainty) = &self.uncertainty {
+            cases.extend(uncertainty.checks.iter().map(|check| self.in_cases(uncertainty, check)));
+        }
         if self.verdict == Verdict::NothingChecked || self.error.is_some() {
             let message = match &self.error {
                 Some(error) => format!("{}: {error}", self.broken()),
@@ -46,8 +47,14 @@ impl RunReport {
     }
 
     /// A check in all cases of `[uncertainty]`. Too few of them are an error: nothing is known.
-    fn in_cases(&self, check: &CheckInCases) -> TestCase {
-        let output = case_lines(check).join("\n");
+    fn in_cases(&self, cases: &UncertaintyReport, check: &CheckInCases) -> TestCase {
+        let mut lines = case_lines(cases, check);
+        if check.requirement.verdict != RequirementVerdict::Met {
+            lines.extend(unfinished_words(cases));
+            let command = check.first_failing.map(|case| self.command_of(case));
+            lines.extend(command.map(|command| format!("to see the first case that fails: {command}")));
+        }
+        let output = lines.join("\n");
         let reason = || Reason { kind: check.check.word().to_owned(), message: output.clone() };
         let result = match check.requirement.verdict {
             RequirementVerdict::Met => TestResult::Passed,
@@ -55,7 +62,8 @@ impl RunReport {
             RequirementVerdict::NotEnoughCases => TestResult::Error(reason()),
         };
         let place = CasePlace::if_known(self.scenario_file.as_deref(), check.line);
-        let name = case_name(check.number - 1, check.check, IN_CASES);
+        let added = if check.is_default { [BY_DEFAULT, IN_CASES].concat() } else { IN_CASES.to_owned() };
+        let name = case_name(check.number - 1, check.check, &added);
         TestCase { name, result, output, place, further: Vec::new() }
     }
 

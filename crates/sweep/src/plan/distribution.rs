@@ -55,6 +55,18 @@ impl Distribution {
         }
     }
 
+    /// Its least and its largest value, as TOML, as far as it has them; of single values all.
+    pub fn ends(&self) -> Vec<String> {
+        match self {
+            Self::Values(values) => values.clone(),
+            Self::Normal { shares: [below, above], .. } => {
+                let is_cut = [*below > 0.0, *above < 1.0];
+                [0.0, 1.0].into_iter().zip(is_cut).filter(|end| end.1).map(|end| self.value(end.0)).collect()
+            }
+            _ => vec![self.value(0.0), self.value(1.0)],
+        }
+    }
+
     /// The same of a distribution of numbers; NaN for one of values.
     fn number(&self, share: f64) -> f64 {
         match *self {

@@ -3,7 +3,11 @@
 use std::path::Path;
 
 use congruent_description::{Robot, load_robot_set};
-use congruent_input::{Diagnostic, FileAccess, Findings, NumberAt, Override, toml_text::parse_document};
+use congruent_input::{
+    Diagnostic, FileAccess, Findings, NumberAt, Override,
+    codes::{cli::SET, toml::UNKNOWN_KEY},
+    toml_text::parse_document,
+};
 use congruent_scenario::{ScenarioFile, robot_overrides, written_numbers};
 
 /// Largest robot file that is read. Kind: choice, as that of a plan.
@@ -35,6 +39,22 @@ impl NominalValues<'_> {
         let numbers = numbers().map_err(Findings::into_first)?;
         let outer = |number: NumberAt| NumberAt { key: format!("{ROBOT}.{}", number.key), ..number };
         Ok(numbers.into_iter().map(outer).collect())
+    }
+}
+
+impl NominalValues<'_> {
+    /// The finding about a key that no file may have; `None` if one may.
+    pub(super) fn unknown_key(&self, key: &Override) -> Option<Diagnostic> {
+        let Self { scenario, overrides, access } = *self;
+        let overrides: Vec<Override> = overrides.iter().chain([key]).cloned().collect();
+        let read = || {
+            let file = ScenarioFile::read_with(scenario, &overrides, access)?;
+            let access = access.inside_project_of(scenario)?;
+            let robot = load_robot_set(&file.robot_path(), &robot_overrides(&overrides), &access);
+            robot.map(|_| file.findings().to_vec())
+        };
+        let findings = read().unwrap_or_else(|findings: Findings| findings.into_iter().collect());
+        findings.into_iter().find(|finding| [UNKNOWN_KEY, SET].contains(&finding.code))
     }
 }
 

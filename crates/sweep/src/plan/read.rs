@@ -17,7 +17,7 @@ use toml::Spanned;
 use super::{
     nominal::NominalValues,
     requirement::passing_share,
-    varied::{VariedKey, key_of, varied},
+    varied::{VariedKey, is_inside, key_of, varied},
     written::WrittenPlan,
 };
 use crate::{
@@ -102,10 +102,7 @@ impl SweepPlan {
             self.varied.iter().zip(point).map(|(varied, share)| varied.distribution.value(share)).collect();
         let mut overrides = self.set.clone();
         for (varied, value) in self.varied.iter().zip(&values) {
-            overrides.extend(varied.keys.iter().map(|key| {
-                let set = set(key, value);
-                if self.varies_what_is_set { set.replacing() } else { set }
-            }));
+            overrides.extend(self.overrides_of(varied, value));
         }
         // A seed that the plan sets or varies is that of the run.
         let given = overrides.iter().find(|change| change.path().eq([SEED])).map(Override::whole_number);
@@ -117,27 +114,40 @@ impl SweepPlan {
 }
 
 impl SweepPlan {
+    /// The overrides that give a value to a varied key.
+    fn overrides_of<'a>(
+        &'a self,
+        varied: &'a VariedKey,
+        value: &'a str,
+    ) -> impl Iterator<Item = Override> + 'a {
+        varied.keys.iter().map(move |key| {
+            let set = set(key, value);
+            if self.varies_what_is_set { set.replacing() } else { set }
+        })
+    }
+
+    /// All cases' values, with one for a varied key.
+    pub(crate) fn with_value(&self, varied: &VariedKey, value: &str) -> Vec<Override> {
+        self.set.iter().cloned().chain(self.overrides_of(varied, value)).collect()
+    }
+
     /// Findings about a case, at the keys of the plan that they are about.
     pub(crate) fn at_keys(&self, findings: Findings) -> Findings {
-        let of = |finding: &Diagnostic| {
-            let set = finding.message.strip_prefix("--set ")?.split('=').next()?;
-            self.varied.iter().find(|varied| varied.keys.iter().any(|key| is_key(key, set)))
-        };
-        let placed = |finding: Diagnostic| match of(&finding) {
-            Some(varied) => {
-                let message = finding.message.trim_start_matches("--set ").to_owned();
-                let found = Diagnostic { message, span: None, source: None, ..finding };
-                found.at(varied.place.clone()).in_file(&self.source)
+        let placed = |finding: Diagnostic| {
+            let set = finding.message.strip_prefix("--set ").and_then(|message| message.split('=').next());
+            let is_set = |varied: &&VariedKey| set.is_some_and(|set| varied.has_key(set));
+            match self.varied.iter().find(is_set) {
+                Some(varied) => self.at_key(varied, finding),
+                None => finding,
             }
-            None => finding,
         };
         findings.into_iter().map(placed).collect()
     }
-}
 
-/// Whether an override of the robot or of the scenario is of this key of the plan.
-fn is_key(key: &str, set: &str) -> bool {
-    key == set || key.strip_prefix("robot.") == Some(set)
+    /// A finding about the value of a varied key, at its place in the plan.
+    pub(crate) fn at_key(&self, varied: &VariedKey, finding: Diagnostic) -> Diagnostic {
+        varied.finding(finding).at(varied.place.clone()).in_file(&self.source)
+    }
 }
 
 /// An override whose key and value were checked as the plan was read.
@@ -227,18 +237,25 @@ fn flatten(before: &str, table: &toml::Table, found: &mut Vec<(String, String)>)
     }
 }
 
-/// Refuses a key that is there twice: which of the values is meant is not known.
+/// Refuses a key that is there twice, or inside of another: which of the values is meant is not known.
 pub(super) fn repeated(set: impl Iterator<Item = String>, varied: &[VariedKey]) -> Vec<Diagnostic> {
     let mut known: Vec<String> = set.collect();
-    let mut found = Vec::new();
+    let mut found: Vec<Diagnostic> = Vec::new();
     for varied in varied {
-        for key in &varied.keys {
-            if known.contains(key) {
-                let message = format!("key \"{key}\" is there twice");
-                found.push(Diagnostic::error(codes::sweep::KEY, message).at(varied.place.clone()));
-            }
-            known.push(key.clone());
+        let repeats =
+            |key: &String, other: &String| key == other || is_inside(key, other) || is_inside(other, key);
+        let pair =
+            varied.keys.iter().find_map(|key| Some((key, known.iter().find(|other| repeats(key, other))?)));
+        let is_new = found.last().is_none_or(|last| last.span.as_ref() != Some(&varied.place));
+        if let (Some((key, other)), true) = (pair, is_new) {
+            let message = if key == other {
+                format!("key \"{key}\" is there twice")
+            } else {
+                format!("key \"{key}\" is there beside \"{other}\", which has the same values")
+            };
+            found.push(Diagnostic::error(codes::sweep::KEY, message).at(varied.place.clone()));
         }
+        known.extend(varied.keys.iter().cloned());
     }
     found
 }

@@ -10,8 +10,12 @@ use serde::Serialize;
 use super::{distribution::Distribution, nominal::NominalValues};
 use crate::codes;
 
-/// The key of the scenario's name.
-const NAME: &str = "name";
+/// Keys that cannot vary, and why.
+const FIXED: [(&str, &str); 3] = [
+    ("name", "it is the name of the results"),
+    ("schema_version", "it is the version of the file"),
+    ("uncertainty", "it says itself what varies"),
+];
 
 /// Keys that get one value, and its distribution.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -28,6 +32,34 @@ pub struct VariedKey {
     /// What that says, in words.
     #[serde(skip)]
     pub(super) described: VariedValue,
+    /// The value of the file, if the distribution is around it.
+    #[serde(skip)]
+    pub(crate) in_file: Option<f64>,
+}
+
+impl VariedKey {
+    /// Whether an override of the robot or of the scenario is of one of its keys.
+    pub(super) fn has_key(&self, set: &str) -> bool {
+        self.keys.iter().any(|key| key == set || key.strip_prefix("robot.") == Some(set))
+    }
+
+    /// A finding about a value that was set for one of its keys, as one about the key.
+    pub(super) fn finding(&self, finding: Diagnostic) -> Diagnostic {
+        about_key(&self.keys, finding)
+    }
+}
+
+/// A finding about a value that was set for a key, by the key alone and without a place: nobody wrote `--set`, or that value.
+fn about_key(keys: &[String], finding: Diagnostic) -> Diagnostic {
+    let of_key = |key: &String| {
+        let of = finding.message.strip_prefix("--set ")?;
+        let of = of.strip_prefix(key.as_str()).or_else(|| of.strip_prefix(key.strip_prefix("robot.")?))?;
+        let (_, rest) = of.strip_prefix('=')?.split_once(": ")?;
+        Some(format!("key \"{key}\": {rest}"))
+    };
+    let message = keys.iter().find_map(of_key).unwrap_or_else(|| finding.message.clone());
+    let help = finding.help.clone().filter(|help| !help.contains("--set") && !help.starts_with("KEY "));
+    Diagnostic { message, help, span: None, source: None, ..finding }
 }
 
 /// A key with a value, as of --set.
@@ -38,6 +70,11 @@ pub(super) fn key_of(key: &str, value: &str) -> Result<Override, Diagnostic> {
             "join the keys of the file by dots; an entry of a list has its number, from 1: payload.1.mass_kg",
         )
     })
+}
+
+/// Whether a key is one of the values under another: `start.joints_deg.elbow_joint` of `start.joints_deg`.
+pub(super) fn is_inside(key: &str, outer: &str) -> bool {
+    key.strip_prefix(outer).is_some_and(|rest| rest.starts_with('.'))
 }
 
 /// The keys that one `[[vary]]` varies: one entry, or, relative to a list or table of the file, one for each of its numbers.
@@ -53,25 +90,38 @@ pub(super) fn varied(
         return Err(fault.with_help("key = \"controller.stiffness\""));
     }
     keys.iter().try_for_each(|key| key_of(key, "0").map(|_| ()))?;
-    if keys.iter().any(|key| key == NAME) {
-        return Err(Diagnostic::error(
-            codes::sweep::KEY,
-            "the name of the scenario is that of its results, and cannot vary",
-        ));
+    for (fixed, why) in FIXED {
+        if keys.iter().any(|key| key == fixed || is_inside(key, fixed)) {
+            let message = format!("\"{fixed}\" cannot vary: {why}");
+            return Err(Diagnostic::error(codes::sweep::KEY, message));
+        }
     }
-    let (found, distribution) = if let Some(half) = relative(written).transpose()? {
-        (around_values(keys, &half, nominal)?, half.to_string())
+    let (found, words) = if let Some(half) = relative(written).transpose()? {
+        let numbers = numbers_of_file(keys, nominal)?;
+        let words = match numbers.as_slice() {
+            [one] => format!("{} {half}", number(one.value)),
+            _ => format!("each {half}"),
+        };
+        (around_values(&keys[0], &half, numbers)?, words)
     } else {
         let distribution = distribution(written)?;
         let words = distribution.to_string();
-        (vec![(keys.to_vec(), distribution)], words)
+        (vec![KeysWithValues { keys: keys.to_vec(), distribution, in_file: None }], words)
     };
-    let described = VariedValue { keys: keys.to_vec(), distribution };
-    let of = |(keys, distribution): (Vec<String>, Distribution)| {
+    let described = VariedValue { keys: keys.to_vec(), distribution: words };
+    let of = |KeysWithValues { keys, distribution, in_file }| {
         let steps = steps(written.steps, &distribution, sampling)?;
-        Ok(VariedKey { keys, distribution, steps, place: place.clone(), described: described.clone() })
+        let (place, described) = (place.clone(), described.clone());
+        Ok(VariedKey { keys, distribution, steps, place, described, in_file })
     };
     found.into_iter().map(of).collect()
+}
+
+/// Keys with one value, its distribution, and the value of the file if that is around it.
+struct KeysWithValues {
+    keys: Vec<String>,
+    distribution: Distribution,
+    in_file: Option<f64>,
 }
 
 /// Half of a range around a value of the file.
@@ -109,34 +159,47 @@ fn relative(written: &VarySettings) -> Option<Result<HalfRange, Diagnostic>> {
     })
 }
 
-/// Each number that the file has under the key, with a range around it.
-fn around_values(
-    keys: &[String],
-    half: &HalfRange,
-    nominal: NominalValues<'_>,
-) -> Result<Vec<(Vec<String>, Distribution)>, Diagnostic> {
+/// Each number that the file has under the key.
+fn numbers_of_file(keys: &[String], nominal: NominalValues<'_>) -> Result<Vec<NumberAt>, Diagnostic> {
     let [key] = keys else {
         return Err(fault("a range around the value of the file is of one key")
             .with_help("give each key a [[vary]] of its own, or all of them uniform = [a, b]"));
     };
-    let numbers = nominal.numbers(&key_of(key, "0")?)?;
+    let key_of_zero = key_of(key, "0")?;
+    let numbers = nominal.numbers(&key_of_zero).map_err(|fault| about_key(keys, fault))?;
     if numbers.is_empty() {
-        let message = format!("the file has no value \"{key}\" for a range around it");
+        if let Some(unknown) = nominal.unknown_key(&key_of_zero) {
+            return Err(about_key(keys, unknown));
+        }
+        let message = format!("the file has no number \"{key}\" for a range around it");
         return Err(Diagnostic::error(codes::sweep::KEY, message)
             .with_help("write the value into the file, or give uniform = [a, b]"));
     }
+    Ok(numbers)
+}
+
+/// Each of these numbers of a key with a range around it.
+fn around_values(
+    key: &str,
+    half: &HalfRange,
+    numbers: Vec<NumberAt>,
+) -> Result<Vec<KeysWithValues>, Diagnostic> {
     let range = |number: NumberAt| {
         let half = match *half {
             HalfRange::Absolute(half) => half,
             HalfRange::Percent(percent) => number.value.abs() * percent / 100.0,
         };
         let range = [number.value - half, number.value + half];
-        (range[0] < range[1]).then(|| (vec![number.key], Distribution::Uniform(range)))
+        (range[0] < range[1]).then(|| KeysWithValues {
+            keys: vec![number.key],
+            distribution: Distribution::Uniform(range),
+            in_file: Some(number.value),
+        })
     };
     let found: Vec<_> = numbers.into_iter().filter_map(range).collect();
     if found.is_empty() {
-        return Err(fault(format!("\"{key}\" is 0 in the file, of which no percentage is a range"))
-            .with_help("plus_minus = 0.1"));
+        return Err(fault(format!("\"{key}\" is 0 in the file, and a percentage of 0 is 0"))
+            .with_help("plus_minus = 0.1, in the unit of the key"));
     }
     Ok(found)
 }

@@ -1,6 +1,7 @@
 //! Cases of a plan, run one after another or on threads.
 
 mod case_row;
+mod ends;
 mod runner;
 mod threads;
 mod uncertainty;

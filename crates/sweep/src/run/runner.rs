@@ -16,7 +16,7 @@ use congruent_results::report::{AfterRun, RunReport, diagnose_run};
 use congruent_twin::{CaseValue, Run, RunSetup};
 
 use super::case_row::CaseRow;
-use crate::plan::{SweepCase, SweepPlan};
+use crate::plan::{SweepCase, SweepPlan, VariedKey};
 
 /// Most robots that are kept: a plan that varies values of the robot file needs another one in each case.
 const MOST_ROBOTS: usize = 16;
@@ -65,8 +65,12 @@ impl<'a> CaseRunner<'a> {
     pub fn setup(&self, case: &SweepCase) -> Result<RunSetup, Findings> {
         let setup = self.setup_with(&case.overrides)?;
         let Some(nominal) = self.nominal else { return Ok(setup) };
-        let named = self.plan.varied.iter().map(|varied| varied.keys.join(", "));
-        let values = named.zip(&case.values).map(|(key, value)| CaseValue { key, value: value.clone() });
+        let value = |(varied, value): (&VariedKey, &String)| CaseValue {
+            key: varied.keys.join(", "),
+            value: value.clone(),
+            in_file: varied.in_file,
+        };
+        let values = self.plan.varied.iter().zip(&case.values).map(value);
         Ok(setup.as_case(nominal, case.case, values.collect()))
     }
 

@@ -2,6 +2,7 @@
 
 use congruent_description::Robot;
 use congruent_dynamics::JointResistance;
+use congruent_input::display::quantity_with_digits;
 use congruent_monitors::{RunDynamics, RunPayload};
 use congruent_scenario::Scenario;
 use nalgebra::Vector3;
@@ -24,12 +25,29 @@ pub struct UncertainCase {
 }
 
 /// A value of a case.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CaseValue {
     /// The key, as of --set.
     pub key: String,
     /// The value, as TOML.
     pub value: String,
+    /// The value of the file, if the distribution is around it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub in_file: Option<f64>,
+}
+
+impl CaseValue {
+    /// The value with five digits, if it is a number.
+    pub fn shown(&self) -> String {
+        let number = self.value.parse().ok();
+        number.map_or_else(|| self.value.clone(), |number: f64| quantity_with_digits(number, "", 5))
+    }
+
+    /// `payload.gripper.mass_kg = 1.9659 (file: 2)`.
+    pub fn words(&self) -> String {
+        let in_file = self.in_file.map(|value| format!(" (file: {})", quantity_with_digits(value, "", 5)));
+        format!("{} = {}{}", self.key, self.shown(), in_file.unwrap_or_default())
+    }
 }
 
 impl UncertainCase {

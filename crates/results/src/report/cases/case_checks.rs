@@ -68,7 +68,7 @@ impl CheckOfCase {
         Self { status: check.status, values }
     }
 
-    /// Whether the check holds in this case. Where there is nothing to check, nothing is wrong.
+    /// Whether the check passes in this case. Where there is nothing to check, nothing is wrong.
     pub(super) fn holds(&self) -> bool {
         matches!(self.status, Status::Pass | Status::Skipped)
     }

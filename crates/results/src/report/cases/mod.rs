@@ -8,5 +8,7 @@ mod uncertainty_report;
 pub use case_checks::CaseChecks;
 pub use requirement::{PassingShare, RequirementResult, RequirementVerdict};
 pub(super) use sentence::uncertainty_sentence;
-pub use sentence::{case_lines, cases_title, requirement_sentence, unfinished_words};
+pub use sentence::{
+    QuantityWords, case_lines, cases_title, passes_in, requirement_sentence, unfinished_words,
+};
 pub use uncertainty_report::{CheckInCases, QuantityInCases, UncertaintyReport, UnfinishedCase, VariedValue};

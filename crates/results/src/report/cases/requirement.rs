@@ -20,13 +20,13 @@ pub struct PassingShare {
 /// The answer to a required share.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RequirementResult {
-    /// The share of cases that must pass; 1 if every case that runs must.
+    /// The share of all possible cases that must pass; 1 if every case of the run must.
     pub passing: f64,
     /// The confidence with which that must be known.
     pub confidence: f64,
-    /// Number of cases that passed, and of all with a result.
+    /// Number of cases that passed.
     pub passed: u64,
-    /// Number of cases that are counted: every one with a row. A case that broke or could not be run has not passed.
+    /// Number of cases that ended, one way or another: a case that broke or could not be run has not passed.
     pub counted: u64,
     /// Bounds of the share that passes: each holds with the confidence.
     pub interval: [f64; 2],

@@ -1,53 +1,75 @@
 //! The cases of a run in words, for all that show them: the terminal, the page and JUnit.
 
+use std::fmt;
+
 use congruent_input::{
     Quantity,
-    display::{number, quantity},
+    display::{compared_quantities, quantity, quantity_with_digits},
 };
-use congruent_monitors::verdict::{Bound, Measure};
+use congruent_monitors::verdict::{Bound, Measure, Verdict};
+use congruent_scenario::CaseSampling;
 
 use super::{
     requirement::{RequirementResult, RequirementVerdict},
-    uncertainty_report::{CheckInCases, QuantityInCases, UncertaintyReport, VariedValue},
+    uncertainty_report::{CheckInCases, QuantityInCases, UncertaintyReport},
 };
 use crate::report::{limit_words, quantity_words, value_and_margin};
 
-/// Whether enough cases pass: `requirement MET: at least 94.4 % of all cases pass, with confidence 95 %; 90 % are required`.
+/// Whether enough cases pass: `requirement MET: at least 94.43 % of all cases pass (confidence 95 %), required 90 %`.
 pub fn requirement_sentence(requirement: &RequirementResult) -> String {
     let RequirementResult { passing, confidence, interval: [lower, upper], .. } = requirement;
     let (wanted, known) = (percent(*passing), percent(*confidence));
+    let (lower, upper) = (percent_of_bound(*lower, f64::floor), percent_of_bound(*upper, f64::ceil));
     match requirement.verdict {
-        RequirementVerdict::Met => format!(
-            "requirement MET: at least {} of all cases pass, with confidence {known}; {wanted} are required",
-            percent(*lower)
-        ),
-        RequirementVerdict::NotMet => format!(
-            "requirement NOT MET: at most {} of all cases pass, with confidence {known}; {wanted} are required",
-            percent(*upper)
-        ),
+        RequirementVerdict::Met => {
+            format!(
+                "requirement MET: at least {lower} of all cases pass (confidence {known}), required {wanted}"
+            )
+        }
+        RequirementVerdict::NotMet => {
+            format!(
+                "requirement NOT MET: at most {upper} of all cases pass (confidence {known}), required {wanted}"
+            )
+        }
         RequirementVerdict::NotEnoughCases => format!(
-            "NOT ENOUGH CASES: between {} and {} of all cases pass, each bound with confidence {known}; {wanted} are required{}",
-            percent(*lower),
-            percent(*upper),
+            "NOT ENOUGH CASES: {lower} to {upper} of all cases pass (confidence {known} of each bound), required {wanted}{}",
             cases_needed(requirement)
         ),
     }
 }
 
-/// A share in per cent: `94.4 %`.
+/// A share in per cent as it was written: `99.95 %`.
 fn percent(share: f64) -> String {
-    format!("{} %", number(100.0 * share))
+    /// More digits are rounding of the factor of 100.
+    const DIGITS: usize = 10;
+    quantity_with_digits(100.0 * share, "%", DIGITS)
+}
+
+/// A bound in per cent with two decimals, rounded away from what is known: 98.9997 % is no 99 %.
+fn percent_of_bound(share: f64, round: fn(f64) -> f64) -> String {
+    format!("{} %", round(1e4 * share) / 100.0)
 }
 
 fn cases_needed(requirement: &RequirementResult) -> String {
-    requirement.cases_needed.map_or_else(String::new, |cases| format!("; some {cases} cases would answer"))
+    let RequirementResult { passed, counted, .. } = requirement;
+    match requirement.cases_needed {
+        None => String::new(),
+        Some(cases) if passed == counted => format!("; needs at least {cases} cases, if none fails"),
+        Some(cases) => format!("; needs some {cases} cases, if as large a share of them passes"),
+    }
 }
 
-/// What ran: `in 300 cases, of payload.gripper.mass_kg +- 0.5; joints.friction +- 20 %`.
+/// What ran: `in 300 cases (random, seed 0)`.
 pub fn cases_title(cases: &UncertaintyReport) -> String {
-    let of = |value: &VariedValue| format!("{} {}", value.keys.join(", "), value.distribution);
-    let varied: Vec<String> = cases.varied.iter().map(of).collect();
-    format!("in {} cases, of {}", cases.ran, varied.join("; "))
+    let UncertaintyReport { ran, seed, .. } = cases;
+    match cases.sampling {
+        CaseSampling::Random => format!("in {ran} cases (random, seed {seed})"),
+        CaseSampling::Grid => format!("in {ran} cases (every combination of a grid)"),
+        CaseSampling::LatinHypercube | CaseSampling::Sobol => {
+            let name = if cases.sampling == CaseSampling::Sobol { "Sobol points" } else { "Latin hypercube" };
+            format!("in {ran} cases ({name}, seed {seed}; confidence as of random cases)")
+        }
+    }
 }
 
 /// The first cases without a result, and how many there are.
@@ -57,90 +79,153 @@ pub fn unfinished_words(cases: &UncertaintyReport) -> Vec<String> {
     listed.chain((further > 0).then(|| format!("{further} further cases have no result"))).collect()
 }
 
-/// The lines of a check in all cases: in how many it holds, then its quantities.
-pub fn case_lines(check: &CheckInCases) -> Vec<String> {
-    let quantities = check.quantities.iter().map(|quantity| in_cases(quantity, check.requirement.passing));
-    std::iter::once(holds_in(check)).chain(quantities).collect()
+/// The lines of a check in all cases: in how many it passes, then its quantities.
+pub fn case_lines(cases: &UncertaintyReport, check: &CheckInCases) -> Vec<String> {
+    let words = |of: &QuantityInCases| QuantityWords::new(of, check.requirement.passing).to_string();
+    let quantities = check.quantities.iter().map(words);
+    std::iter::once(passes_in(cases, check)).chain(quantities).collect()
 }
 
-/// `holds in 297 of 300 cases: at least 97.4 % of all, with confidence 95 %; 99 % are required`.
-fn holds_in(check: &CheckInCases) -> String {
-    let RequirementResult { passing, confidence, passed, counted, interval: [lower, upper], .. } =
-        check.requirement;
-    let known = percent(confidence);
-    let share = match check.requirement.verdict {
-        RequirementVerdict::Met => format!("at least {} of all, with confidence {known}", percent(lower)),
-        RequirementVerdict::NotMet => format!("at most {} of all, with confidence {known}", percent(upper)),
-        RequirementVerdict::NotEnoughCases => {
-            let (lower, upper) = (percent(lower), percent(upper));
-            format!("between {lower} and {upper} of all, each bound with confidence {known}")
-        }
+/// `passes in 297 of 300 cases; in at least 97.43 % of all cases (confidence 95 %), required 95 %`.
+pub fn passes_in(cases: &UncertaintyReport, check: &CheckInCases) -> String {
+    let RequirementResult { passing, passed, counted, .. } = check.requirement;
+    let lost = match cases.without_result {
+        0 => String::new(),
+        lost => format!(" ({lost} have no result)"),
     };
-    let required = if passing < 1.0 {
-        format!("; {} are required{}", percent(passing), cases_needed(&check.requirement))
-    } else {
-        "; each that runs must".to_owned()
-    };
-    let first = check.first_failing.map_or_else(String::new, |case| format!("; first not in case {case}"));
-    format!("holds in {passed} of {counted} cases: {share}{required}{first}")
-}
-
-/// `distance: 21.2 mm in 99 % of all cases, worst 20.6 mm (case 117), median 25 mm, limit >= 20 mm`.
-fn in_cases(of: &QuantityInCases, passing: f64) -> String {
-    let measure = Measure {
-        quantity: of.quantity,
-        unit: of.unit,
-        limit: of.limit,
-        bound: of.bound,
-        worst: None,
-        first_violation: None,
-    };
-    let shown = |value: Option<f64>| match value {
-        None => "not finite".to_owned(),
-        Some(value) if of.quantity == Quantity::Distance && value < 0.0 => {
-            format!("overlap {}", quantity(-value, of.unit.symbol()))
-        }
-        Some(value) => value_and_margin(of.quantity, of.unit, of.bound, [value, of.limit])
-            .unwrap_or_else(|| quantity(value, of.unit.symbol())),
-    };
-    let is_margin = value_and_margin(of.quantity, of.unit, of.bound, [0.0; 2]).is_some();
-    let side = match of.bound {
-        Bound::AtMost if !is_margin => "at most",
-        _ => "at least",
-    };
-    let kept = of
-        .quantile
-        .map(|value| format!("{side} {} in {} of all cases, ", shown(Some(value)), percent(passing)));
-    let limit = if is_margin { String::new() } else { format!(", {}", limit_words(&measure)) };
-    let what = if is_margin { "joint limit".to_owned() } else { quantity_words(of.quantity) };
-    let pairs = if of.of_changing_pairs { " of pairs that move" } else { "" };
+    let first = check.first_failing.map_or_else(String::new, |case| format!(", not in case {case}"));
+    let required = if passing < 1.0 { percent(passing) } else { "in every case".to_owned() };
     format!(
-        "{what}{pairs}: {}worst {} (case {}), median {}{limit}",
-        kept.unwrap_or_default(),
-        shown(of.worst),
-        of.worst_case,
-        shown(of.median)
+        "passes in {passed} of {counted} cases{lost}{first}{}, required {required}{}",
+        share_known(cases.sampling, &check.requirement),
+        cases_needed(&check.requirement)
     )
 }
 
-/// The reason for the verdict of a run that passes by itself: `own` is its sentence.
-pub(crate) fn uncertainty_sentence(own: &str, cases: &UncertaintyReport) -> String {
-    let UncertaintyReport { cases: asked, ran, .. } = cases;
-    if !cases.is_whole() {
-        return format!("interrupted after {ran} of {asked} cases");
+/// What the cases that ran show of all possible ones; nothing if they are no sample of them.
+fn share_known(sampling: CaseSampling, requirement: &RequirementResult) -> String {
+    let RequirementResult { confidence, interval: [lower, upper], passing, .. } = *requirement;
+    if sampling == CaseSampling::Grid {
+        return String::new();
     }
-    let with = |verdict: RequirementVerdict| {
-        let checks = cases.checks.iter().filter(move |check| check.requirement.verdict == verdict);
-        let named = checks.map(|check| {
-            let RequirementResult { passed, counted, passing, .. } = check.requirement;
-            let required =
-                if passing < 1.0 { format!(", {} required", percent(passing)) } else { String::new() };
-            format!("{} holds in {passed} of {counted} cases{required}", check.check)
-        });
-        named.collect::<Vec<_>>().join("; ")
+    let (lower, upper) = (percent_of_bound(lower, f64::floor), percent_of_bound(upper, f64::ceil));
+    let known = percent(confidence);
+    match requirement.verdict {
+        RequirementVerdict::NotEnoughCases if passing < 1.0 => {
+            format!("; in {lower} to {upper} of all cases (confidence {known} of each bound)")
+        }
+        RequirementVerdict::NotMet => format!("; in at most {upper} of all cases (confidence {known})"),
+        _ => format!("; in at least {lower} of all cases (confidence {known})"),
+    }
+}
+
+/// A quantity of a check in all cases, in words.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct QuantityWords {
+    /// Which quantity: `distance`.
+    pub what: String,
+    /// What the required share of all possible cases keeps: `at least 23.2 mm in 99 %`; `None` if that is not known, or not asked for.
+    pub kept: Option<String>,
+    /// The worst value and its case: `23.2 mm (case 229)`.
+    pub worst: String,
+    /// The median; `None` if all cases have the worst value.
+    pub median: Option<String>,
+    /// The limit, with its direction; `None` for a margin.
+    pub limit: Option<String>,
+}
+
+impl QuantityWords {
+    /// The words of a quantity of a check of which this share of cases must pass.
+    pub fn new(of: &QuantityInCases, passing: f64) -> Self {
+        let measure = Measure {
+            quantity: of.quantity,
+            unit: of.unit,
+            limit: of.limit,
+            bound: of.bound,
+            worst: None,
+            first_violation: None,
+        };
+        let margin = |value: f64| value_and_margin(of.quantity, of.unit, of.bound, [value, of.limit]);
+        let shown = |value: Option<f64>| match value {
+            None => "not finite".to_owned(),
+            Some(value) if of.quantity == Quantity::Distance && value < 0.0 => {
+                format!("overlap {}", quantity(-value, of.unit.symbol()))
+            }
+            Some(value) => margin(value).unwrap_or_else(|| {
+                let [value, _] = compared_quantities([value, of.limit], of.unit.symbol());
+                value
+            }),
+        };
+        let is_margin = margin(0.0).is_some();
+        let what = if is_margin { "joint limit".to_owned() } else { quantity_words(of.quantity) };
+        let pairs = if of.of_changing_pairs { " of pairs that move" } else { "" };
+        let side = if of.bound == Bound::AtMost && !is_margin { "at most" } else { "at least" };
+        let kept = |value| format!("{side} {} in {}", shown(Some(value)), percent(passing));
+        let varies = of.worst != of.median;
+        let worst = shown(of.worst);
+        Self {
+            what: format!("{what}{pairs}"),
+            kept: of.quantile_bound.filter(|_| varies).map(kept),
+            worst: if varies { format!("{worst} (case {})", of.worst_case) } else { worst },
+            median: varies.then(|| shown(of.median)),
+            limit: (!is_margin).then(|| limit_words(&measure)),
+        }
+    }
+}
+
+impl fmt::Display for QuantityWords {
+    /// `distance: at least 23.2 mm in 99 % of all cases, worst 23.2 mm (case 229), median 35.6 mm, limit >= 20 mm`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { what, kept, worst, median, limit } = self;
+        write!(f, "{what}: ")?;
+        if let Some(kept) = kept {
+            write!(f, "{kept} of all cases, ")?;
+        }
+        match median {
+            Some(median) => write!(f, "worst {worst}, median {median}")?,
+            None => write!(f, "{worst} in every case")?,
+        }
+        limit.as_ref().map_or(Ok(()), |limit| write!(f, ", {limit}"))
+    }
+}
+
+/// The reason for the verdict of a run with cases, whose run with the values of the file had this verdict and sentence.
+pub(crate) fn uncertainty_sentence(own: Verdict, sentence: &str, cases: &UncertaintyReport) -> String {
+    let UncertaintyReport { cases: asked, ran, without_result, checks, .. } = cases;
+    let lost = match without_result {
+        0 => String::new(),
+        lost => format!("{lost} of {asked} cases have no result; "),
     };
-    match cases.verdict {
-        RequirementVerdict::Met => format!("{own}, and in {asked} cases"),
-        verdict => with(verdict),
+    let named = || match cases.verdict {
+        RequirementVerdict::Met => format!("in {asked} cases each check passes as often as it must"),
+        verdict => format!("{lost}{}", with_verdict(cases, verdict)),
+    };
+    match own {
+        Verdict::AsExpected if !cases.is_whole() => format!("interrupted after {ran} of {asked} cases"),
+        Verdict::AsExpected if cases.verdict != RequirementVerdict::Met => named(),
+        Verdict::AsExpected => {
+            let is_in_all = checks.iter().all(|check| check.requirement.passed == check.requirement.counted);
+            if is_in_all {
+                format!("{sentence}, and in all {asked} cases")
+            } else {
+                format!("{sentence}, and in as many of {asked} cases as required")
+            }
+        }
+        Verdict::NotAsExpected if cases.is_whole() => {
+            format!("{sentence} with the values of the file; {}", named())
+        }
+        _ => sentence.to_owned(),
     }
+}
+
+/// The checks with a verdict: `clearance passes in 271 of 300 cases, required 99 %`.
+fn with_verdict(cases: &UncertaintyReport, verdict: RequirementVerdict) -> String {
+    let checks = cases.checks.iter().filter(|check| check.requirement.verdict == verdict);
+    let named = checks.map(|check| {
+        let RequirementResult { passed, counted, passing, .. } = check.requirement;
+        let required = if passing < 1.0 { format!(", required {}", percent(passing)) } else { String::new() };
+        let needed = cases_needed(&check.requirement);
+        format!("{} passes in {passed} of {counted} cases{required}{needed}", check.check)
+    });
+    named.collect::<Vec<_>>().join("; ")
 }

@@ -25,13 +25,15 @@ pub struct UncertaintyReport {
     pub ran: u64,
     /// How the values of the cases were chosen.
     pub sampling: CaseSampling,
+    /// Seed of the cases, that of the scenario.
+    pub seed: u64,
     /// What varies.
     pub varied: Vec<VariedValue>,
     /// The answer of all checks together.
     pub verdict: RequirementVerdict,
     /// Each check that was evaluated, in the order of the scenario; default checks last.
     pub checks: Vec<CheckInCases>,
-    /// Number of cases without a result: their runs broke, or could not begin. No check holds in them.
+    /// Number of cases without a result: their runs broke, or could not begin. They count as cases in which no check passes.
     pub without_result: u64,
     /// The first of these, with the reason.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -43,8 +45,15 @@ pub struct UncertaintyReport {
 pub struct VariedValue {
     /// The keys that get it, as of --set.
     pub keys: Vec<String>,
-    /// Its distribution, in words.
+    /// Its distribution, in words, with the value of the file where it is relative to that: `2 +- 0.5`.
     pub distribution: String,
+}
+
+impl VariedValue {
+    /// `payload.gripper.mass_kg 2 +- 0.5`.
+    pub fn words(&self) -> String {
+        format!("{} {}", self.keys.join(", "), self.distribution)
+    }
 }
 
 /// A case without a result.
@@ -65,9 +74,12 @@ pub struct CheckInCases {
     pub line: Option<usize>,
     /// Number of the check in the scenario, from 1.
     pub number: usize,
-    /// Whether it holds in as many cases as it must.
+    /// Whether it is checked without being in the scenario.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub is_default: bool,
+    /// Whether it passes in as many cases as it must.
     pub requirement: RequirementResult,
-    /// The first case in which it does not hold; left out if it always does.
+    /// The first case in which it does not pass; left out if it always does.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub first_failing: Option<u64>,
     /// Its quantities.
@@ -98,7 +110,7 @@ pub struct QuantityInCases {
     pub median: Option<f64>,
     /// The value that the required share of all possible cases keeps, with the confidence; `null` if the cases are too few, or if every case
     /// must pass.
-    pub quantile: Option<f64>,
+    pub quantile_bound: Option<f64>,
 }
 
 impl UncertaintyReport {
@@ -135,6 +147,7 @@ impl UncertaintyReport {
             cases: settings.cases,
             ran,
             sampling: settings.sampling,
+            seed: scenario.seed,
             varied,
             verdict: together(&checks),
             checks,
@@ -189,6 +202,7 @@ fn check_in_cases(
         check: own.check,
         line: own.line,
         number: at + 1,
+        is_default: own.is_default,
         requirement: RequirementResult::new(share, passed, found.len() as u64),
         first_failing: found.iter().find(|(_, check)| !holds(*check)).map(|(case, _)| *case),
         quantities: quantities(&found, share),
@@ -249,14 +263,15 @@ fn in_cases(kind: &ValueOfCase, worst_first: &[(u64, f64)], share: PassingShare)
         worst: worst.and_then(finite),
         worst_case: worst_first.iter().find(|of| !of.1.is_nan()).map_or(worst_case, |of| of.0),
         median: finite(worst_first[worst_first.len() / 2].1),
-        quantile: quantile.and_then(|of| finite(of.1)),
+        quantile_bound: quantile.and_then(|of| finite(of.1)),
     })
 }
 
 fn varies(quantity: &QuantityInCases) -> bool {
     match (quantity.worst, quantity.median) {
         (Some(worst), Some(median)) => {
-            (worst - median).abs() > ROUNDING * worst.abs().max(median.abs()) || quantity.quantile.is_some()
+            (worst - median).abs() > ROUNDING * worst.abs().max(median.abs())
+                || quantity.quantile_bound.is_some()
         }
         _ => true,
     }
