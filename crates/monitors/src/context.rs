@@ -9,6 +9,8 @@ use crate::{ComparedPoses, RunClock, RunDynamics, RunPayload};
 pub struct CheckContext<'a> {
     /// The robot with its model.
     pub description: &'a RobotDescription,
+    /// The robot that its controllers know: of a robot whose values are uncertain that of the files.
+    pub known: &'a RobotDescription,
     /// Clock and gravity of the run.
     pub clock: &'a RunClock,
     /// Bodies that links carry for a time.

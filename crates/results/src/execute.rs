@@ -172,7 +172,7 @@ pub fn execute_with<'a>(
 /// The resolved scenario; values of the robot that were set are not in it, so that a comment has the call that sets them again.
 fn resolved_text(setup: &RunSetup, folder: &OutputFolder) -> String {
     // A case is written as the scenario that has it: its values are those that controllers do not know.
-    let scenario = setup.uncertain_case.as_ref().map_or(&setup.scenario, |case| &case.scenario);
+    let scenario = setup.uncertain_case.as_ref().map_or(&setup.scenario, |case| &case.known.scenario);
     let of_robot = setup.overrides.iter().filter(|change| change.starts_with("robot."));
     let set: Vec<String> = of_robot.map(|change| format!(" --set '{change}'")).collect();
     let scenario = relative_to(scenario, folder).to_toml();

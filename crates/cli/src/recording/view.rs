@@ -113,13 +113,14 @@ fn refused(error: SweepError) -> Failure {
 }
 
 fn scenario(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
-    let setup = RunSetup::load_with(&arguments.input, &[], &arguments.access.access()?)
-        .and_then(RunSetup::for_simulation)?;
-    printer.warnings(None, &setup.description.warnings);
-    printer.warnings(None, &setup.warnings);
+    let access = arguments.access.access()?;
+    let setup = RunSetup::load_with(&arguments.input, &[], &access).and_then(RunSetup::for_simulation)?;
+    let scenario = PreparedScenario::new(setup, &access)?;
+    printer.warnings(None, &scenario.setup.description.warnings);
+    printer.warnings(None, &scenario.setup.warnings);
     let options =
         Options { out: arguments.out.clone(), recordings: vec![&RerunFormat, &PageFormat], interrupt: None };
-    let ran = run_one(&PreparedScenario::without_cases(setup), &options, &ProgressLines::new(printer))?;
+    let ran = run_one(&scenario, &options, &ProgressLines::new(printer))?;
     printer.result(&ran, BatchReport::text)?;
     let code = ran.exit_code();
     let Ok(folder) = &ran.results else { return Ok(code) };

@@ -34,6 +34,9 @@ pub(super) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         let setup = RunSetup::load_with(path, &overrides, &access).and_then(RunSetup::for_simulation)?;
         printer.warnings(Some(path), &setup.description.warnings);
         printer.warnings(Some(path), &setup.warnings);
+        if setup.scenario.uncertainty.is_some() {
+            printer.notes(["the cases of [uncertainty] do not run: faults are injected into the scenario as it is written"]);
+        }
         Ok(setup)
     };
     let document = arguments.faults.markdown.as_deref().map(MarkdownDocument::read).transpose()?;

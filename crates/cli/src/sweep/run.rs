@@ -55,6 +55,9 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let plan = SweepPlan::read(&arguments.plan, &access)?;
     let runner = CaseRunner::new(&plan, access);
     let header = SweepHeader::new(&runner)?;
+    if runner.first_setup()?.scenario.uncertainty.is_some() {
+        printer.notes(["the cases of [uncertainty] do not run: a sweep has those of its plan"]);
+    }
     let folder = SweepFolder::at(&arguments.out);
     folder.begin(&header)?;
     let range = arguments.range(&plan)?;

@@ -315,7 +315,10 @@ fn entries(items: &[Spanned<DeValue<'_>>]) -> String {
     };
     let names: Vec<String> = (1..).zip(items).filter_map(named).collect();
     let names = if names.is_empty() { String::new() } else { format!(": {}", names.join(", ")) };
-    format!("entries 1 to {}{names}", items.len())
+    match items.len() {
+        1 => format!("one entry{names}"),
+        count => format!("entries 1 to {count}{names}"),
+    }
 }
 
 /// A value with all that it holds at one place: its own text is not the file's.

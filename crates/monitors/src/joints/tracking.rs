@@ -1,7 +1,7 @@
 //! The twin against its setpoint: the error during the run and at its end, the part of the commanded travel that joints make,
 //! and, while the setpoint is at rest, settling time and overshoot of the joints.
 
-use congruent_description::{JointKind, LinkIndex, Robot, RobotQ};
+use congruent_description::{JointKind, LinkIndex, Robot, RobotDescription, RobotQ};
 use congruent_input::{Diagnostic, Quantity, SiUnit};
 use congruent_kinematics::UrdfTree;
 use congruent_scenario::{FilePlace, TrackingCheck};
@@ -49,10 +49,11 @@ struct RestDetector {
     direction: Vec<f64>,
 }
 
-/// The TCP at the setpoint, by forward kinematics.
+/// The TCP at the setpoint, by forward kinematics of the robot that controllers know.
 struct TcpOfSetpoint {
     tree: UrdfTree,
     tip: LinkIndex,
+    known_tip_from_tcp: Isometry3<f64>,
     tip_from_tcp: Isometry3<f64>,
 }
 
@@ -102,13 +103,15 @@ impl TrackingMonitor {
         let (description, dof) = (context.description, context.dof());
         let watch = |quantity, unit, limit| Watch::new(quantity, unit, Bound::AtMost, limit, dof);
         let limits = check.unit_keys().map(|keys| keys.value());
+        let tcp = |of: &RobotDescription| of.tip_from_tcp.unwrap_or_else(Isometry3::identity);
         let [path_rad, path_m, path_tcp_m, goal_rad, goal_m, goal_tcp_m, overshoot_rad, overshoot_m] = limits;
         Self {
             kinds: context.joint_kinds(),
             tcp: TcpOfSetpoint {
-                tree: UrdfTree::new(&description.robot),
+                tree: UrdfTree::new(&context.known.robot),
                 tip: description.tip,
-                tip_from_tcp: description.tip_from_tcp.unwrap_or_else(Isometry3::identity),
+                known_tip_from_tcp: tcp(context.known),
+                tip_from_tcp: tcp(description),
             },
             path: Errors {
                 turning: path_rad.map(|limit| watch(Quantity::PathErrorOfAngle, SiUnit::Radian, limit)),
@@ -202,7 +205,7 @@ impl TcpOfSetpoint {
     /// Distance of the twin's TCP from the setpoint's.
     fn error_m(&self, q: &RobotQ, sample: &Sample<'_>) -> f64 {
         let Ok(root_from_tip) = self.tree.root_from_link(q, self.tip) else { return f64::NAN };
-        let tcp_in_tip: Vector3<f64> = self.tip_from_tcp.translation.vector;
+        let tcp_in_tip: Vector3<f64> = self.known_tip_from_tcp.translation.vector;
         let wanted = root_from_tip.rotation * tcp_in_tip + root_from_tip.translation;
         let found = sample.twin[self.tip.get()] * self.tip_from_tcp;
         (found.translation.vector - wanted).norm()

@@ -103,6 +103,9 @@ fn log(source: &SourceReport) -> Markup {
 
 /// The verdict in a sentence: of checks that failed which they are, and what the first one has found.
 pub(crate) fn sentence(report: &RunReport) -> String {
+    if report.uncertainty.is_some() {
+        return capitalised(&report.sentence());
+    }
     let failed = report.checks_failed_first().into_iter().filter(|check| check.status == Status::Fail);
     let failed: Vec<_> = failed.collect();
     let found = failed.first().and_then(|first| Some((first.check, lines(first).into_iter().next()?)));

@@ -90,6 +90,9 @@ impl RecordingSummary {
             1 => Verdict::NotAsExpected,
             3 => Verdict::Broken,
             2 => return format!("BAD RECORDING: {}", self.reason),
+            _ if self.run.as_ref().is_some_and(|run| run.verdict == Verdict::NotEnoughCases) => {
+                Verdict::NotEnoughCases
+            }
             _ => return format!("NOT CHECKED: {}", self.reason),
         };
         verdict_line(verdict, &self.reason)

@@ -12,7 +12,7 @@ use serde::{Deserialize, Deserializer, Serialize, de::IgnoredAny};
 
 use super::{
     after_run::AfterRun,
-    cases::{RequirementVerdict, UncertaintyReport, uncertainty_sentence},
+    cases::{CheckInCases, RequirementVerdict, UncertaintyReport, uncertainty_sentence},
     portable::{portable, portable_diagnosis, portable_finding},
     source_report::SourceReport,
     verdict_sentence::verdict_sentence,
@@ -279,25 +279,31 @@ impl RunReport {
 
     /// The command that runs the same again.
     pub fn command(&self) -> String {
+        let quoted = |word: &str| format!("'{}'", word.replace('\'', r"'\''"));
         let file = self.scenario_file.as_deref().unwrap_or("FILE");
-        let quoted = |change: &String| format!("--set '{}'", change.replace('\'', r"'\''"));
+        let file = if file.contains(char::is_whitespace) { quoted(file) } else { file.to_owned() };
+        let set = |change: &String| format!("--set {}", quoted(change));
         let has_seed = self.overrides.iter().any(|change| change.starts_with("seed="));
         let seed = (!has_seed).then(|| format!("--seed {}", self.seed));
-        let words = ["congruent run".to_owned(), file.to_owned()].into_iter();
-        words.chain(self.overrides.iter().map(quoted)).chain(seed).collect::<Vec<_>>().join(" ")
+        let words = ["congruent run".to_owned(), file].into_iter();
+        words.chain(self.overrides.iter().map(set)).chain(seed).collect::<Vec<_>>().join(" ")
     }
 
     /// What is worth seeing of the cases of `[uncertainty]`, and the command that runs it with page and recording: the first case in which
     /// a check fails, or of the first quantity the worst.
     pub fn command_of_case(&self) -> Option<(&'static str, String)> {
         let checks = self.uncertainty.as_ref()?.checks_failed_first();
-        let failing = checks.iter().find_map(|check| check.first_failing);
-        let worst =
-            || checks.iter().flat_map(|check| &check.quantities).map(|quantity| quantity.worst_case).next();
-        match failing {
-            Some(case) => Some(("the first case that fails", self.command_of(case))),
-            None => Some(("the worst case", self.command_of(worst()?))),
+        let failing = |is_met: bool| {
+            let of_verdict =
+                |check: &&&CheckInCases| (check.requirement.verdict == RequirementVerdict::Met) == is_met;
+            checks.iter().filter(of_verdict).filter_map(|check| check.first_failing).min()
+        };
+        if let Some(case) = failing(false).or_else(|| failing(true)) {
+            return Some(("the first case that fails", self.command_of(case)));
         }
+        let worst =
+            checks.iter().flat_map(|check| &check.quantities).map(|quantity| quantity.worst_case).next();
+        Some(("the worst case", self.command_of(worst?)))
     }
 
     /// The command that runs a case of `[uncertainty]` alone.

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use congruent_input::display::number;
+use congruent_input::display::quantity_with_digits;
 use serde::Serialize;
 
 use crate::sampling::normal_quantile;
@@ -23,6 +23,9 @@ pub enum Distribution {
         deviation: f64,
         /// The shares of the normal distribution below the two numbers between which it is cut.
         shares: [f64; 2],
+        /// These two numbers, of which either may be infinite.
+        #[serde(skip)]
+        range: [f64; 2],
     },
     /// Rises to the middle one of three numbers and falls to the last.
     Triangular([f64; 3]),
@@ -34,7 +37,7 @@ impl Distribution {
     /// A normal distribution that is cut at two numbers.
     pub(super) fn normal(mean: f64, deviation: f64, [least, most]: [f64; 2]) -> Self {
         let share = |value: f64| 0.5 * libm::erfc((mean - value) / deviation / std::f64::consts::SQRT_2);
-        Self::Normal { mean, deviation, shares: [share(least), share(most)] }
+        Self::Normal { mean, deviation, shares: [share(least), share(most)], range: [least, most] }
     }
 
     /// The value below which a share of the distribution is, as TOML. `share` is from 0 to 1, without its ends for what is not cut.
@@ -55,16 +58,20 @@ impl Distribution {
         }
     }
 
-    /// Its least and its largest value, as TOML, as far as it has them; of single values all.
-    pub fn ends(&self) -> Vec<String> {
-        match self {
-            Self::Values(values) => values.clone(),
-            Self::Normal { shares: [below, above], .. } => {
-                let is_cut = [*below > 0.0, *above < 1.0];
-                [0.0, 1.0].into_iter().zip(is_cut).filter(|end| end.1).map(|end| self.value(end.0)).collect()
+    /// Its least and its largest value, as TOML, each with one just inside of it; of single values all, twice.
+    pub fn ends(&self) -> Vec<[String; 2]> {
+        /// Share of a distribution between an end and the value inside of it.
+        const INSIDE: f64 = 1e-6;
+        let inside = [INSIDE, 1.0 - INSIDE].map(|share| self.value(share));
+        let ends = match *self {
+            Self::Values(ref values) => {
+                return values.iter().map(|value| [value.clone(), value.clone()]).collect();
             }
-            _ => vec![self.value(0.0), self.value(1.0)],
-        }
+            Self::Normal { range, .. } => range,
+            _ => [0.0, 1.0].map(|share| self.number(share)),
+        };
+        let ends = ends.into_iter().zip(inside).filter(|(end, _)| end.is_finite());
+        ends.map(|(end, inside)| [number_as_toml(end), inside]).collect()
     }
 
     /// The same of a distribution of numbers; NaN for one of values.
@@ -72,8 +79,9 @@ impl Distribution {
         match *self {
             Self::Uniform([from, to]) => from + (to - from) * share,
             Self::LogUniform([from, to]) => from * libm::exp(libm::log(to / from) * share),
-            Self::Normal { mean, deviation, shares: [below, above] } => {
-                mean + deviation * normal_quantile(below + (above - below) * share)
+            Self::Normal { mean, deviation, shares: [below, above], range: [least, most] } => {
+                let value = mean + deviation * normal_quantile(below + (above - below) * share);
+                value.clamp(least, most)
             }
             Self::Triangular([from, peak, to]) => {
                 let rising = (peak - from) / (to - from);
@@ -90,12 +98,18 @@ impl Distribution {
 
 impl fmt::Display for Distribution {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let of = |value: f64| number(value);
+        /// Digits of a value: as many as people write.
+        const DIGITS: usize = 6;
+        let of = |value: f64| quantity_with_digits(value, "", DIGITS);
         match self {
             Self::Uniform([from, to]) => write!(f, "{} to {}", of(*from), of(*to)),
             Self::LogUniform([from, to]) => write!(f, "{} to {}, by its logarithm", of(*from), of(*to)),
-            Self::Normal { mean, deviation, .. } => {
-                write!(f, "normal, {} with standard deviation {}", of(*mean), of(*deviation))
+            Self::Normal { mean, deviation, range: [least, most], .. } => {
+                write!(f, "normal, {} with standard deviation {}", of(*mean), of(*deviation))?;
+                if least.is_finite() {
+                    write!(f, ", at least {}", of(*least))?;
+                }
+                if most.is_finite() { write!(f, ", at most {}", of(*most)) } else { Ok(()) }
             }
             Self::Triangular([from, peak, to]) => {
                 write!(f, "{} to {}, most often {}", of(*from), of(*to), of(*peak))

@@ -10,9 +10,24 @@ use congruent_twin::RunSetup;
 use super::{
     nominal::NominalValues,
     read::{SEED, SweepPlan, at, checked_cases, repeated},
-    varied::{VariedKey, varied},
+    varied::{VariedKey, refuse_fixed, varied},
 };
 use crate::{codes, sampling::PointSource};
+
+/// Keys that cannot vary within one scenario, and why.
+const FIXED: [(&str, &str); 6] = [
+    ("seed", "each case has a seed of its own"),
+    ("expect", "it says what passes"),
+    ("check", "it says what passes"),
+    ("output", "cases write no files"),
+    ("folder", "it says where the files are"),
+    ("source", "a log has no cases"),
+];
+/// The key of the robot, which cannot vary, but for the values inside of it.
+const ROBOT: &str = "robot";
+/// Keys of distributions.
+const DISTRIBUTIONS: [&str; 7] =
+    ["plus_minus", "percent", "uniform", "log_uniform", "normal", "triangular", "values"];
 
 impl SweepPlan {
     /// The cases of `[uncertainty]`; `None` if the scenario has none.
@@ -33,9 +48,15 @@ impl SweepPlan {
         let nominal = NominalValues { scenario: path, overrides: &set, access };
         let mut found = Diagnostics::default();
         let entries = uncertainty.vary.iter().enumerate().filter_map(|(index, vary)| {
-            let place = file.place().key("uncertainty").key("vary").item(index).span().unwrap_or_default();
-            let varied = varied(vary, &place, uncertainty.sampling, nominal);
-            found.keep(varied.map_err(|fault| at(fault, place.clone())))
+            let entry = file.place().key("uncertainty").key("vary").item(index);
+            let key = entry.key("key").span().or_else(|| entry.span()).unwrap_or_default();
+            let may_vary = vary.key.as_slice().iter().try_for_each(|key| refuse_fixed_here(key));
+            let varied = may_vary.and_then(|()| varied(vary, &key, uncertainty.sampling, nominal));
+            found.keep(varied.map_err(|fault| {
+                let of_distribution = DISTRIBUTIONS.iter().find_map(|name| entry.key(name).span());
+                let place = of_distribution.filter(|_| fault.code == codes::sweep::DISTRIBUTION);
+                at(fault, place.unwrap_or_else(|| key.clone()))
+            }))
         });
         let varied: Vec<VariedKey> = entries.flatten().collect();
         found.extend(repeated(std::iter::empty(), &varied));
@@ -74,4 +95,14 @@ impl SweepPlan {
         values.dedup_by_key(|varied| varied.place.clone());
         values.into_iter().map(|varied| varied.described.clone()).collect()
     }
+}
+
+/// Refuses a key that cannot vary within one scenario.
+fn refuse_fixed_here(key: &str) -> Result<(), Diagnostic> {
+    if key == ROBOT {
+        let message = "the robot cannot vary: controllers know the one of the file";
+        return Err(Diagnostic::error(codes::sweep::KEY, message)
+            .with_help("vary its values, as robot.link.NAME.mass_kg, or run a sweep over several robots"));
+    }
+    refuse_fixed(key, &FIXED)
 }

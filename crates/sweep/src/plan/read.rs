@@ -278,7 +278,7 @@ pub(super) fn checked_cases(
         return match given {
             Some(given) if given != product => {
                 let message = format!("cases = {given}, and the grid has {product} combinations");
-                Err(fault(message).with_help("leave cases out, or change steps and values"))
+                Err(fault(message).with_help(format!("cases = {product}, or change steps and values")))
             }
             _ => Ok(product),
         };

@@ -10,11 +10,11 @@ use serde::Serialize;
 use super::{distribution::Distribution, nominal::NominalValues};
 use crate::codes;
 
-/// Keys that cannot vary, and why.
+/// Keys that cannot vary, with all that is inside of them, and why.
 const FIXED: [(&str, &str); 3] = [
     ("name", "it is the name of the results"),
     ("schema_version", "it is the version of the file"),
-    ("uncertainty", "it says itself what varies"),
+    ("uncertainty", "it says what varies"),
 ];
 
 /// Keys that get one value, and its distribution.
@@ -72,6 +72,16 @@ pub(super) fn key_of(key: &str, value: &str) -> Result<Override, Diagnostic> {
     })
 }
 
+/// Refuses a key that cannot vary.
+pub(super) fn refuse_fixed(key: &str, fixed: &[(&str, &str)]) -> Result<(), Diagnostic> {
+    match fixed.iter().find(|(fixed, _)| key == *fixed || is_inside(key, fixed)) {
+        None => Ok(()),
+        Some((fixed, why)) => {
+            Err(Diagnostic::error(codes::sweep::KEY, format!("\"{fixed}\" cannot vary: {why}")))
+        }
+    }
+}
+
 /// Whether a key is one of the values under another: `start.joints_deg.elbow_joint` of `start.joints_deg`.
 pub(super) fn is_inside(key: &str, outer: &str) -> bool {
     key.strip_prefix(outer).is_some_and(|rest| rest.starts_with('.'))
@@ -90,12 +100,7 @@ pub(super) fn varied(
         return Err(fault.with_help("key = \"controller.stiffness\""));
     }
     keys.iter().try_for_each(|key| key_of(key, "0").map(|_| ()))?;
-    for (fixed, why) in FIXED {
-        if keys.iter().any(|key| key == fixed || is_inside(key, fixed)) {
-            let message = format!("\"{fixed}\" cannot vary: {why}");
-            return Err(Diagnostic::error(codes::sweep::KEY, message));
-        }
-    }
+    keys.iter().try_for_each(|key| refuse_fixed(key, &FIXED))?;
     let (found, words) = if let Some(half) = relative(written).transpose()? {
         let numbers = numbers_of_file(keys, nominal)?;
         let words = match numbers.as_slice() {
@@ -155,7 +160,8 @@ fn relative(written: &VarySettings) -> Option<Result<HalfRange, Diagnostic>> {
     Some(if is_range {
         Ok(half)
     } else {
-        Err(fault(format!("{name} = {number} is not a finite number above 0")))
+        Err(fault(format!("{name} = {number} is not a finite number above 0"))
+            .with_help(format!("{name} = 0.5 goes both ways; remove the entry if the value does not vary")))
     })
 }
 
@@ -166,7 +172,9 @@ fn numbers_of_file(keys: &[String], nominal: NominalValues<'_>) -> Result<Vec<Nu
             .with_help("give each key a [[vary]] of its own, or all of them uniform = [a, b]"));
     };
     let key_of_zero = key_of(key, "0")?;
-    let numbers = nominal.numbers(&key_of_zero).map_err(|fault| about_key(keys, fault))?;
+    let mut numbers = nominal.numbers(&key_of_zero).map_err(|fault| about_key(keys, fault))?;
+    // The order of the keys of a table means nothing, so the draws must not depend on it.
+    numbers.sort_by(|a, b| segments(&a.key).cmp(segments(&b.key)));
     if numbers.is_empty() {
         if let Some(unknown) = nominal.unknown_key(&key_of_zero) {
             return Err(about_key(keys, unknown));
@@ -176,6 +184,11 @@ fn numbers_of_file(keys: &[String], nominal: NominalValues<'_>) -> Result<Vec<Nu
             .with_help("write the value into the file, or give uniform = [a, b]"));
     }
     Ok(numbers)
+}
+
+/// The parts of a key in an order that has lists by number and tables by name.
+fn segments(key: &str) -> impl Iterator<Item = (Option<u64>, &str)> {
+    key.split('.').map(|segment| (segment.parse().ok(), segment))
 }
 
 /// Each of these numbers of a key with a range around it.
@@ -197,6 +210,13 @@ fn around_values(
         })
     };
     let found: Vec<_> = numbers.into_iter().filter_map(range).collect();
+    let is_finite = |found: &KeysWithValues| match found.distribution {
+        Distribution::Uniform(range) => (range[1] - range[0]).is_finite(),
+        _ => true,
+    };
+    if !found.iter().all(is_finite) {
+        return Err(fault(format!("the range around \"{key}\" is infinitely wide")));
+    }
     if found.is_empty() {
         return Err(fault(format!("\"{key}\" is 0 in the file, and a percentage of 0 is 0"))
             .with_help("plus_minus = 0.1, in the unit of the key"));
@@ -245,21 +265,24 @@ fn absolute(written: &VarySettings) -> Vec<Result<Distribution, Diagnostic>> {
 
 fn ascending(numbers: &[f64]) -> Result<(), Diagnostic> {
     let is_ascending = numbers.is_sorted_by(|a, b| a < b) && numbers.iter().all(|number| number.is_finite());
-    if is_ascending {
+    let is_finite =
+        numbers.first().zip(numbers.last()).is_some_and(|(first, last)| (last - first).is_finite());
+    if is_ascending && is_finite {
         Ok(())
     } else {
-        Err(fault(format!("{numbers:?} are not two finite numbers in ascending order"))
-            .with_help("write the smaller one first"))
+        Err(fault(format!("{numbers:?} are not two finite numbers of which the second is larger"))
+            .with_help("uniform = [0.5, 3.0]; a value that does not vary needs no entry"))
     }
 }
 
 fn triangular(corners: [f64; 3]) -> Result<Distribution, Diagnostic> {
     let [from, peak, to] = corners;
     // The peak may be at an end.
-    if from < to && from <= peak && peak <= to && from.is_finite() && to.is_finite() {
+    if from < to && from <= peak && peak <= to && (to - from).is_finite() {
         return Ok(Distribution::Triangular(corners));
     }
-    Err(fault(format!("triangular = {corners:?} is no first value, most frequent value and last value")))
+    Err(fault(format!("triangular = {corners:?} is not least, most frequent and largest value"))
+        .with_help("triangular = [0.5, 2.0, 3.0]"))
 }
 
 fn normal(of: NormalSettings) -> Result<Distribution, Diagnostic> {

@@ -1,16 +1,31 @@
-//! The ends of what varies, before any case runs: a file that may not have such a value is a mistake of the scenario, no result.
+//! The ends of what varies, before any case runs: a value that no scenario may have is a mistake, no result.
 
-use congruent_input::{Diagnostic, Findings};
+use congruent_input::{Diagnostic, Findings, Severity};
 
 use super::runner::CaseRunner;
 use crate::plan::VariedKey;
 
-/// Beginnings of the names of codes about a value that no file may have.
-const OF_FILES: [&str; 3] = ["toml::", "cli::set", "scenario::type"];
+/// Names of the codes that say what a robot cannot do from there, and not that the scenario is wrong: what cases are about.
+const OF_THE_RUN: [&str; 14] = [
+    "scenario::arc_speed",
+    "scenario::obstacle_overlap",
+    "scenario::orientation",
+    "scenario::out_of_reach",
+    "scenario::over_limit",
+    "scenario::path_limit",
+    "scenario::path_reach",
+    "scenario::path_singular",
+    "scenario::path_speed",
+    "scenario::playback_jump",
+    "scenario::playback_range",
+    "scenario::playback_start",
+    "scenario::start_limit",
+    "scenario::target_limit",
+];
 
 impl CaseRunner<'_> {
-    /// Refuses a distribution whose least or largest value, alone, makes a file that is refused, as a negative mass does. Start, motions and
-    /// collisions are no matter of the file: they are what cases are about.
+    /// Refuses a distribution whose least or largest value, alone, makes a scenario that is refused, as a negative mass does. A start or a
+    /// motion that the robot cannot take is no such mistake.
     ///
     /// # Errors
     /// A finding for each such key, at its place.
@@ -21,17 +36,26 @@ impl CaseRunner<'_> {
     }
 
     fn refused_end(&self, varied: &VariedKey) -> Option<Diagnostic> {
-        let is_of_file =
-            |finding: &Diagnostic| OF_FILES.iter().any(|beginning| finding.code.name.starts_with(beginning));
-        varied.distribution.ends().into_iter().find_map(|value| {
-            let findings = self.setup_with(&self.plan().with_value(varied, &value)).err()?;
-            let finding = findings.into_iter().find(is_of_file)?;
+        let (key, distribution) = (varied.keys.join(", "), &varied.distribution);
+        distribution.ends().into_iter().find_map(|[end, inside]| {
+            let finding = self.mistake(varied, &end)?;
+            // An end alone, which no case draws, may be out of a range that is open there: a mass from 0 on.
+            self.mistake(varied, &inside)?;
             let placed = self.plan().at_key(varied, finding);
             if placed.message.starts_with("key ") {
                 return Some(placed);
             }
-            let message = format!("key \"{}\" = {value}: {}", varied.keys.join(", "), placed.message);
+            let message = format!("key \"{key}\" = {end}: {}", placed.message);
             Some(Diagnostic { message, ..placed })
         })
+    }
+
+    /// What is wrong with the scenario if a key has a value.
+    fn mistake(&self, varied: &VariedKey, value: &str) -> Option<Diagnostic> {
+        let findings = self.setup_with(&self.plan().with_value(varied, value)).err()?;
+        let is_mistake = |finding: &Diagnostic| {
+            finding.severity == Severity::Error && !OF_THE_RUN.contains(&finding.code.name)
+        };
+        findings.into_iter().find(is_mistake)
     }
 }

@@ -13,10 +13,13 @@ use congruent_input::{
 };
 use congruent_monitors::NoRecorder;
 use congruent_results::report::{AfterRun, RunReport, diagnose_run};
-use congruent_twin::{CaseValue, Run, RunSetup};
+use congruent_twin::{CaseValue, KnownValues, Run, RunSetup};
 
 use super::case_row::CaseRow;
-use crate::plan::{SweepCase, SweepPlan, VariedKey};
+use crate::{
+    codes,
+    plan::{SweepCase, SweepPlan, VariedKey},
+};
 
 /// Most robots that are kept: a plan that varies values of the robot file needs another one in each case.
 const MOST_ROBOTS: usize = 16;
@@ -26,21 +29,22 @@ const MOST_ROBOTS: usize = 16;
 pub struct CaseRunner<'a> {
     plan: &'a SweepPlan,
     access: FileAccess,
-    /// The scenario as it is written, whose values controllers know; `None` if they know those of the case.
-    nominal: Option<&'a RunSetup>,
+    /// The values that controllers and planner know; `None` if they know those of the case.
+    known: Option<Arc<KnownValues>>,
     robots: Mutex<BTreeMap<String, Arc<RobotDescription>>>,
 }
 
 impl<'a> CaseRunner<'a> {
     /// A runner of the cases of a plan, whose scenario and robot may open these files.
     pub fn new(plan: &'a SweepPlan, access: FileAccess) -> Self {
-        Self { plan, access, nominal: None, robots: Mutex::default() }
+        Self { plan, access, known: None, robots: Mutex::default() }
     }
 
-    /// The same for the cases of `[uncertainty]`: the controllers of each know the values of `nominal`, the scenario as it is written.
+    /// The same for the cases of `[uncertainty]`: controllers and planner of each know the values of `nominal`, the scenario as it is
+    /// written.
     #[must_use]
-    pub fn with_controllers_of(self, nominal: &'a RunSetup) -> Self {
-        Self { nominal: Some(nominal), ..self }
+    pub fn with_controllers_of(self, nominal: &RunSetup) -> Self {
+        Self { known: Some(Arc::new(KnownValues::of(nominal))), ..self }
     }
 
     /// The plan.
@@ -48,9 +52,9 @@ impl<'a> CaseRunner<'a> {
         self.plan
     }
 
-    /// The scenario whose values the controllers of the cases know.
-    pub(super) fn nominal(&self) -> Option<&'a RunSetup> {
-        self.nominal
+    /// The values that controllers and planner of the cases know.
+    pub(super) fn known(&self) -> Option<&KnownValues> {
+        self.known.as_deref()
     }
 
     /// The files that were opened for the plan.
@@ -64,14 +68,14 @@ impl<'a> CaseRunner<'a> {
     /// Every finding, if the scenario cannot be run with the values of the case.
     pub fn setup(&self, case: &SweepCase) -> Result<RunSetup, Findings> {
         let setup = self.setup_with(&case.overrides)?;
-        let Some(nominal) = self.nominal else { return Ok(setup) };
+        let Some(known) = &self.known else { return Ok(setup) };
         let value = |(varied, value): (&VariedKey, &String)| CaseValue {
             key: varied.keys.join(", "),
             value: value.clone(),
             in_file: varied.in_file,
         };
         let values = self.plan.varied.iter().zip(&case.values).map(value);
-        Ok(setup.as_case(nominal, case.case, values.collect()))
+        Ok(setup.as_case(Arc::clone(known), case.case, values.collect()))
     }
 
     /// The scenario of the first case, or, if its values are refused, of the plan without what varies. What is wrong with a key is
@@ -102,10 +106,13 @@ impl<'a> CaseRunner<'a> {
             // Values of links and joints are set without the files, since plans vary them continuously.
             let set = |robot: Robot, change: &Override| robot.with_value(change);
             let robot = of_model.iter().try_fold(loaded.robot.clone(), set)?;
+            if let Some(known) = self.known() {
+                same_joints(&robot, &known.description.robot)?;
+            }
             Ok(RobotDescription { robot, ..RobotDescription::clone(&loaded) })
         };
-        let setup = RunSetup::load_with_robot(&self.plan.scenario, overrides, &self.access.fresh(), &robot)?;
-        setup.for_simulation()
+        let (access, known) = (self.access.fresh(), self.known().map(|known| &known.description));
+        RunSetup::load_with_robot(&self.plan.scenario, overrides, &access, &robot, known)?.for_simulation()
     }
 
     fn robot(
@@ -156,6 +163,21 @@ impl<'a> CaseRunner<'a> {
             Err(error) => CaseRow::refused(case, error),
         })
     }
+}
+
+/// Refuses a robot whose joints and links are not those that controllers know.
+fn same_joints(robot: &Robot, known: &Robot) -> Result<(), Diagnostic> {
+    let names = |robot: &Robot| -> Vec<String> {
+        let links = robot.links().iter().map(|link| link.name.clone());
+        links.chain(robot.movable_joints().iter().map(|&joint| robot.joint(joint).name.clone())).collect()
+    };
+    if names(robot) == names(known) {
+        return Ok(());
+    }
+    Err(Diagnostic::error(
+        codes::sweep::KEY,
+        "the robot has other links or joints than with the values of the file",
+    ))
 }
 
 /// The error of a run that somebody has ended, which is no result.

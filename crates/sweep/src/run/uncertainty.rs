@@ -29,7 +29,7 @@ impl CaseRunner<'_> {
         threads: CaseThreads<'_>,
         mut progress: impl FnMut(u64),
     ) -> UncertaintyReport {
-        let nominal = self.nominal().expect("controllers know the scenario as it is written");
+        let known = self.known().expect("controllers know the scenario as it is written");
         let CaseThreads { jobs, interrupt } = threads;
         let run = |case: u64| {
             Some(match self.report(&self.plan().case(case), interrupt)? {
@@ -44,6 +44,6 @@ impl CaseRunner<'_> {
             Ok::<(), Infallible>(())
         });
         let Ok(()) = taken;
-        UncertaintyReport::new(&nominal.scenario, self.plan().varied_values(), own, cases)
+        UncertaintyReport::new(&known.scenario, self.plan().varied_values(), own, cases)
     }
 }

@@ -18,11 +18,13 @@ struct LoadParts<'a> {
     /// In place of the log of `[source]`.
     stream: Option<&'a SurveyedLog>,
     robot: &'a LoadRobot<'a>,
+    /// The robot that the planner knows, if it is another one.
+    known: Option<&'a RobotDescription>,
 }
 
 impl Default for LoadParts<'_> {
     fn default() -> Self {
-        Self { stream: None, robot: &load_robot_set }
+        Self { stream: None, robot: &load_robot_set, known: None }
     }
 }
 
@@ -57,7 +59,7 @@ impl RunSetup {
     }
 
     /// The same with a robot from `robot`, which gets its path and the overrides of its own values: many cases of one scenario load
-    /// each robot once.
+    /// each robot once. Motions are planned for the robot `known`, if one is given: the one that a planner knows.
     ///
     /// # Errors
     /// As [`RunSetup::load`].
@@ -66,8 +68,9 @@ impl RunSetup {
         overrides: &[Override],
         access: &FileAccess,
         robot: &LoadRobot<'_>,
+        known: Option<&RobotDescription>,
     ) -> Result<Self, Findings> {
-        Self::load_for(path, overrides, access, &LoadParts { robot, ..LoadParts::default() })
+        Self::load_for(path, overrides, access, &LoadParts { robot, known, ..LoadParts::default() })
     }
 
     fn load_for(
@@ -110,7 +113,7 @@ impl RunSetup {
         };
         let folder = file.folder();
         let folder = ScenarioFolder { path: &folder, access: &access };
-        let written = WrittenAt { place: file.place(), folder, stream: parts.stream };
+        let written = WrittenAt { place: file.place(), folder, stream: parts.stream, known: parts.known };
         let built = Self::build(file.scenario.clone(), description, written);
         let mut setup = match built {
             Ok(setup) if file.findings().is_empty() => setup,

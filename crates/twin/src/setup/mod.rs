@@ -23,4 +23,4 @@ pub use load::LoadRobot;
 pub use recorded::RecordedSetup;
 pub use run_setup::RunSetup;
 pub(crate) use surroundings::LARGEST_M;
-pub use uncertain_case::{CaseValue, UncertainCase};
+pub use uncertain_case::{CaseValue, KnownValues, UncertainCase};

@@ -1,6 +1,6 @@
 //! A scenario with its robot, ready to run any number of times.
 
-use std::path::PathBuf;
+use std::{path::PathBuf, sync::Arc};
 
 use congruent_description::{Obstacle, RobotDescription, RobotQ};
 use congruent_dynamics::JointResistance;
@@ -24,7 +24,7 @@ use super::{
     start::{inside_limits, start},
     surroundings::{FirstStep, Surroundings, jumps, mobility},
     timing::RunTiming,
-    uncertain_case::{CaseValue, UncertainCase},
+    uncertain_case::{CaseValue, KnownValues, UncertainCase},
     written_at::WrittenAt,
 };
 use crate::{
@@ -72,7 +72,7 @@ pub struct RunSetup {
     /// The log whose joint states the run takes, in place of a simulation.
     pub recorded: Option<RecordedSetup>,
     /// The case of `[uncertainty]` that it is; `None` for a scenario as it is written.
-    pub uncertain_case: Option<Box<UncertainCase>>,
+    pub uncertain_case: Option<UncertainCase>,
     /// Warnings about the scenario; the robot's own warnings are in its description.
     pub warnings: Vec<Diagnostic>,
     /// Errors that matter for a simulation only: obstacles that overlap the robot at the start, and a run without an end.
@@ -113,7 +113,11 @@ impl RunSetup {
         }
         let folder = PathBuf::from(scenario.folder.clone().unwrap_or_default());
         let folder = ScenarioFolder { path: &folder, access: &FileAccess::default() };
-        Self::build(scenario, description, WrittenAt { place: FilePlace::nowhere(), folder, stream })
+        Self::build(
+            scenario,
+            description,
+            WrittenAt { place: FilePlace::nowhere(), folder, stream, known: None },
+        )
     }
 
     pub(super) fn build(
@@ -131,7 +135,8 @@ impl RunSetup {
         found.keep(check_head(&scenario, place));
         let start = found.keep(start(&scenario.start, place.key("start"), robot));
         let start = inside_limits(start, &scenario, robot, &mut warnings);
-        let trajectory = found.keep(trajectory(&scenario, written, &description, &start, &mut warnings));
+        let planned_for = written.known.unwrap_or(&description);
+        let trajectory = found.keep(trajectory(&scenario, written, planned_for, &start, &mut warnings));
         // Without a plan the duration as written stands in, so that the clock is checked in the same call.
         let motions_s = trajectory.as_ref().map_or_else(|| written_s(&scenario), Trajectory::duration_s);
         let RunTiming { clock, recorded, warnings: of_timing } =
@@ -241,6 +246,7 @@ impl RunSetup {
     pub fn checks(&self) -> Vec<RunningCheck<'_>> {
         let context = CheckContext {
             description: &self.description,
+            known: self.known_description(),
             clock: &self.clock,
             payloads: &self.payloads,
             is_recorded: self.recorded.is_some(),
@@ -278,19 +284,16 @@ impl RunSetup {
         self.uncertain_case.as_ref().map_or_else(|| self.declared_dynamics(), |case| case.known_dynamics())
     }
 
-    /// This scenario as a case of `nominal`, whose values its controllers know.
+    /// The robot that controllers and planner know. In a case of `[uncertainty]` it is that of the files.
+    pub fn known_description(&self) -> &RobotDescription {
+        self.uncertain_case.as_ref().map_or(&self.description, |case| &case.known.description)
+    }
+
+    /// This scenario as a case of another one, whose values its controllers know.
     #[must_use]
-    pub fn as_case(mut self, nominal: &Self, case: u64, values: Vec<CaseValue>) -> Self {
-        self.overrides.clone_from(&nominal.overrides);
-        self.uncertain_case = Some(Box::new(UncertainCase {
-            case,
-            values,
-            scenario: nominal.scenario.clone(),
-            robot: nominal.description.robot.clone(),
-            payloads: nominal.payloads.clone(),
-            resistances: nominal.resistances.clone(),
-            gravity_in_root_m_s2: nominal.clock.gravity_in_world,
-        }));
+    pub fn as_case(mut self, known: Arc<KnownValues>, case: u64, values: Vec<CaseValue>) -> Self {
+        self.overrides.clone_from(&known.overrides);
+        self.uncertain_case = Some(UncertainCase { case, values, known });
         self
     }
 

@@ -1,6 +1,8 @@
 //! A case of `[uncertainty]`: a scenario with other values, which its controllers do not know.
 
-use congruent_description::Robot;
+use std::sync::Arc;
+
+use congruent_description::RobotDescription;
 use congruent_dynamics::JointResistance;
 use congruent_input::display::quantity_with_digits;
 use congruent_monitors::{RunDynamics, RunPayload};
@@ -9,6 +11,8 @@ use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::run_setup::RunSetup;
+
 /// A case, with what its controllers know: the scenario as it is written.
 #[derive(Debug, Clone)]
 pub struct UncertainCase {
@@ -16,12 +20,35 @@ pub struct UncertainCase {
     pub case: u64,
     /// Its values.
     pub values: Vec<CaseValue>,
+    /// What controllers and planner know, the same in all cases.
+    pub known: Arc<KnownValues>,
+}
+
+/// What controllers and planner know in all cases of a scenario: its values as they are written.
+#[derive(Debug)]
+pub struct KnownValues {
     /// The scenario as it is written.
     pub scenario: Scenario,
-    pub(super) robot: Robot,
-    pub(super) payloads: Vec<RunPayload>,
-    pub(super) resistances: Vec<JointResistance>,
-    pub(super) gravity_in_root_m_s2: Vector3<f64>,
+    /// The robot of the files.
+    pub description: RobotDescription,
+    pub(super) overrides: Vec<String>,
+    payloads: Vec<RunPayload>,
+    resistances: Vec<JointResistance>,
+    gravity_in_root_m_s2: Vector3<f64>,
+}
+
+impl KnownValues {
+    /// The values of a scenario as it is written.
+    pub fn of(nominal: &RunSetup) -> Self {
+        Self {
+            scenario: nominal.scenario.clone(),
+            description: nominal.description.clone(),
+            overrides: nominal.overrides.clone(),
+            payloads: nominal.payloads.clone(),
+            resistances: nominal.resistances.clone(),
+            gravity_in_root_m_s2: nominal.clock.gravity_in_world,
+        }
+    }
 }
 
 /// A value of a case.
@@ -53,6 +80,7 @@ impl CaseValue {
 impl UncertainCase {
     /// The dynamics of the scenario as it is written.
     pub(crate) fn known_dynamics(&self) -> RunDynamics<'_> {
-        RunDynamics::new(&self.robot, &self.payloads, &self.resistances, self.gravity_in_root_m_s2)
+        let KnownValues { description, payloads, resistances, gravity_in_root_m_s2, .. } = &*self.known;
+        RunDynamics::new(&description.robot, payloads, resistances, *gravity_in_root_m_s2)
     }
 }

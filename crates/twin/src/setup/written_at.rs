@@ -1,5 +1,6 @@
 //! Where a scenario is.
 
+use congruent_description::RobotDescription;
 use congruent_logs::SurveyedLog;
 use congruent_scenario::{FilePlace, ScenarioFolder};
 
@@ -10,4 +11,6 @@ pub(super) struct WrittenAt<'a> {
     pub(super) folder: ScenarioFolder<'a>,
     /// What the first messages of a stream say, which takes the place of the log.
     pub(super) stream: Option<&'a SurveyedLog>,
+    /// The robot that the planner knows, if it is another one.
+    pub(super) known: Option<&'a RobotDescription>,
 }

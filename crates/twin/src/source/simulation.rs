@@ -88,7 +88,8 @@ impl<'a> SimulationSource<'a> {
             setup,
             world,
             controller: JointController::new(setup),
-            reference: ReferenceGenerator::new(&setup.trajectory, description).map_err(SourceError::new)?,
+            reference: ReferenceGenerator::new(&setup.trajectory, setup.known_description())
+                .map_err(SourceError::new)?,
         })
     }
 

@@ -2,6 +2,7 @@
 
 use congruent_input::{Quantity, SiUnit};
 use congruent_monitors::verdict::{Bound, CheckResult, Status};
+use congruent_scenario::CheckKind;
 
 /// The checks of a case.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,6 +16,8 @@ pub struct CaseChecks {
 /// One check of a case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CheckOfCase {
+    pub(super) kind: CheckKind,
+    pub(super) is_default: bool,
     pub(super) status: Status,
     pub(super) values: Vec<ValueOfCase>,
 }
@@ -65,11 +68,6 @@ impl CheckOfCase {
         if let (Some(&first), Some(changing)) = (values.first(), &check.nearest_that_changes) {
             values.push(ValueOfCase { is_of_changing_pairs: true, value: changing.value, ..first });
         }
-        Self { status: check.status, values }
-    }
-
-    /// Whether the check passes in this case. Where there is nothing to check, nothing is wrong.
-    pub(super) fn holds(&self) -> bool {
-        matches!(self.status, Status::Pass | Status::Skipped)
+        Self { kind: check.check, is_default: check.is_default, status: check.status, values }
     }
 }

@@ -142,7 +142,7 @@ fn at_most(most: u64, count: u64, probability: f64) -> f64 {
         .min(1.0)
 }
 
-/// The number of cases with which the share that was found would answer, by doubling.
+/// The number of cases with which the share that was found would answer, to about a hundredth.
 #[expect(
     clippy::cast_precision_loss,
     clippy::cast_possible_truncation,
@@ -156,17 +156,19 @@ fn needed(requirement: PassingShare, passed: u64, counted: u64) -> Option<u64> {
         return Some((libm::log(1.0 - confidence) / libm::log(passing)).ceil() as u64);
     }
     let failing = (counted - passed) as f64 / counted as f64;
-    let mut cases = counted;
-    while cases < MOST_CASES.min(counted.saturating_mul(4096)) {
-        cases *= 2;
+    let answers = |cases: u64| {
         let passed = cases - (failing * cases as f64).round() as u64;
-        let is_answer = lower_bound(passed, cases, confidence) >= passing
-            || upper_bound(passed, cases, confidence) < passing;
-        if is_answer {
-            return Some(cases);
-        }
+        lower_bound(passed, cases, confidence) >= passing || upper_bound(passed, cases, confidence) < passing
+    };
+    let doubled = (0..).map(|doublings: u32| counted << doublings);
+    let largest = MOST_CASES.min(counted.saturating_mul(4096));
+    let mut most = doubled.skip(1).take_while(|cases| *cases < 2 * largest).find(|cases| answers(*cases))?;
+    let mut least = most / 2;
+    while most - least > most / 100 + 1 {
+        let middle = u64::midpoint(least, most);
+        if answers(middle) { most = middle } else { least = middle }
     }
-    None
+    Some(most)
 }
 
 #[cfg(test)]
@@ -197,6 +199,11 @@ mod tests {
         assert!(lower_bound(299, 299, 0.95) >= 0.99 && lower_bound(298, 298, 0.95) < 0.99);
         let more = needed(requirement, 998, 1000);
         assert!(more.is_some_and(|more| more > 1000), "{more:?}");
+        // By trying every number of cases in steps of 5 %: 316 and 1332.
+        let needed =
+            |passed, passing| needed(PassingShare { passing, confidence: 0.95 }, passed, 300).unwrap();
+        assert!((300..=320).contains(&needed(291, 0.95)), "{}", needed(291, 0.95));
+        assert!((1250..=1360).contains(&needed(288, 0.95)), "{}", needed(288, 0.95));
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use congruent_input::{
-    Quantity,
+    Quantity, SiUnit,
     display::{compared_quantities, quantity, quantity_with_digits},
 };
 use congruent_monitors::verdict::{Bound, Measure, Verdict};
@@ -41,7 +41,7 @@ pub fn requirement_sentence(requirement: &RequirementResult) -> String {
 /// A share in per cent as it was written: `99.95 %`.
 fn percent(share: f64) -> String {
     /// More digits are rounding of the factor of 100.
-    const DIGITS: usize = 10;
+    const DIGITS: usize = 15;
     quantity_with_digits(100.0 * share, "%", DIGITS)
 }
 
@@ -74,8 +74,11 @@ pub fn cases_title(cases: &UncertaintyReport) -> String {
 
 /// The first cases without a result, and how many there are.
 pub fn unfinished_words(cases: &UncertaintyReport) -> Vec<String> {
-    let listed = cases.unfinished.iter().map(|of| format!("case {} has no result: {}", of.case, of.error));
-    let further = cases.without_result.saturating_sub(cases.unfinished.len() as u64);
+    /// The report has more of them.
+    const LISTED: usize = 3;
+    let listed = cases.unfinished.iter().take(LISTED);
+    let further = cases.without_result.saturating_sub(listed.len() as u64);
+    let listed = listed.map(|of| format!("case {} has no result: {}", of.case, of.error));
     listed.chain((further > 0).then(|| format!("{further} further cases have no result"))).collect()
 }
 
@@ -91,7 +94,8 @@ pub fn passes_in(cases: &UncertaintyReport, check: &CheckInCases) -> String {
     let RequirementResult { passing, passed, counted, .. } = check.requirement;
     let lost = match cases.without_result {
         0 => String::new(),
-        lost => format!(" ({lost} have no result)"),
+        lost if check.is_default => format!(" with a result ({lost} have none)"),
+        lost => format!(" ({lost} without a result)"),
     };
     let first = check.first_failing.map_or_else(String::new, |case| format!(", not in case {case}"));
     let required = if passing < 1.0 { percent(passing) } else { "in every case".to_owned() };
@@ -130,7 +134,7 @@ pub struct QuantityWords {
     pub worst: String,
     /// The median; `None` if all cases have the worst value.
     pub median: Option<String>,
-    /// The limit, with its direction; `None` for a margin.
+    /// The limit, with its direction; `None` for a margin that only must be positive.
     pub limit: Option<String>,
 }
 
@@ -145,8 +149,13 @@ impl QuantityWords {
             worst: None,
             first_violation: None,
         };
-        let margin = |value: f64| value_and_margin(of.quantity, of.unit, of.bound, [value, of.limit]);
+        // A required margin is that of the check; it stands once, as its limit.
+        let required =
+            (of.limit < 0.0).then(|| format!("required margin >= {}", quantity(-of.limit, of.unit.symbol())));
+        let margin =
+            |value: f64| value_and_margin(of.quantity, of.unit, of.bound, [value, of.limit.max(0.0)]);
         let shown = |value: Option<f64>| match value {
+            None if of.unit == SiUnit::Second => "not reached".to_owned(),
             None => "not finite".to_owned(),
             Some(value) if of.quantity == Quantity::Distance && value < 0.0 => {
                 format!("overlap {}", quantity(-value, of.unit.symbol()))
@@ -168,7 +177,7 @@ impl QuantityWords {
             kept: of.quantile_bound.filter(|_| varies).map(kept),
             worst: if varies { format!("{worst} (case {})", of.worst_case) } else { worst },
             median: varies.then(|| shown(of.median)),
-            limit: (!is_margin).then(|| limit_words(&measure)),
+            limit: if is_margin { required } else { Some(limit_words(&measure)) },
         }
     }
 }

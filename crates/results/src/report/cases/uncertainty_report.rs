@@ -102,11 +102,11 @@ pub struct QuantityInCases {
     /// Whether it is the smallest distance of the pairs whose distance changes in the run.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub of_changing_pairs: bool,
-    /// The worst value of all cases; `null` if it is infinite.
+    /// The worst value of the cases with a result; `null` if it is infinite.
     pub worst: Option<f64>,
     /// The case that has it.
     pub worst_case: u64,
-    /// The median of the worst values of the cases; `null` if it is infinite.
+    /// The median of these values, of the cases with a result; `null` if it is infinite.
     pub median: Option<f64>,
     /// The value that the required share of all possible cases keeps, with the confidence; `null` if the cases are too few, or if every case
     /// must pass.
@@ -181,59 +181,104 @@ fn together(checks: &[CheckInCases]) -> RequirementVerdict {
     }
 }
 
-/// A check in all cases; `None` if there is nothing to check in any of them.
+/// What a case has of a check.
+#[derive(Debug, Clone, Copy)]
+enum FoundInCase<'a> {
+    /// Its outcome.
+    Checked(&'a CheckOfCase),
+    /// Nothing to check in this case.
+    NothingToCheck,
+    /// The case has no result.
+    Lost,
+}
+
+impl<'a> FoundInCase<'a> {
+    fn new(case: &'a CaseChecks, own: &CheckResult, at: usize) -> Self {
+        let Ok(checks) = &case.checks else { return Self::Lost };
+        // Which default checks there are follows from the values of the case.
+        let found = if own.is_default {
+            checks.iter().find(|check| check.is_default && check.kind == own.check)
+        } else {
+            checks.get(at)
+        };
+        match found {
+            Some(check) if check.status != Status::Skipped => Self::Checked(check),
+            _ => Self::NothingToCheck,
+        }
+    }
+
+    fn passes(self) -> bool {
+        match self {
+            Self::Checked(check) => check.status == Status::Pass,
+            Self::NothingToCheck => true,
+            Self::Lost => false,
+        }
+    }
+}
+
+/// A check in all cases; `None` if there is nothing to check in any of them. A case without a result has not passed, except by a default
+/// check: nobody has asked for that, and it says nothing of a run that did not begin.
 fn check_in_cases(
     own: &CheckResult,
     at: usize,
     share: PassingShare,
     cases: &[CaseChecks],
 ) -> Option<CheckInCases> {
-    let found: Vec<(u64, Option<&CheckOfCase>)> = cases
+    let found: Vec<(u64, FoundInCase<'_>)> = cases
         .iter()
-        .map(|case| (case.case, case.checks.as_ref().ok().and_then(|checks| checks.get(at))))
+        .map(|case| (case.case, FoundInCase::new(case, own, at)))
+        .filter(|(_, found)| !(own.is_default && matches!(found, FoundInCase::Lost)))
         .collect();
-    let is_skipped = |check: Option<&CheckOfCase>| check.is_some_and(|check| check.status == Status::Skipped);
-    if own.status == Status::Skipped && found.iter().all(|(_, check)| is_skipped(*check)) {
+    let is_checked = found.iter().any(|(_, found)| matches!(found, FoundInCase::Checked(_)));
+    if !is_checked && own.status == Status::Skipped {
         return None;
     }
-    let holds = |check: Option<&CheckOfCase>| check.is_some_and(CheckOfCase::holds);
-    let passed = found.iter().filter(|(_, check)| holds(*check)).count() as u64;
+    let passed = found.iter().filter(|(_, found)| found.passes()).count() as u64;
     Some(CheckInCases {
         check: own.check,
         line: own.line,
         number: at + 1,
         is_default: own.is_default,
         requirement: RequirementResult::new(share, passed, found.len() as u64),
-        first_failing: found.iter().find(|(_, check)| !holds(*check)).map(|(case, _)| *case),
+        first_failing: found.iter().find(|(_, found)| !found.passes()).map(|(case, _)| *case),
         quantities: quantities(&found, share),
     })
 }
 
-fn quantities(found: &[(u64, Option<&CheckOfCase>)], share: PassingShare) -> Vec<QuantityInCases> {
-    let values = || found.iter().flat_map(|(_, check)| check.iter().flat_map(|check| &check.values));
+fn quantities(found: &[(u64, FoundInCase<'_>)], share: PassingShare) -> Vec<QuantityInCases> {
+    let checked = |found: &FoundInCase<'_>| match *found {
+        FoundInCase::Checked(check) => check.values.clone(),
+        _ => Vec::new(),
+    };
     let mut kinds: Vec<ValueOfCase> = Vec::new();
-    for value in values() {
-        if !kinds.iter().any(|kind| is_same(kind, value)) {
-            kinds.push(*value);
+    for value in found.iter().flat_map(|(_, found)| checked(found)) {
+        if !kinds.iter().any(|kind| is_same(kind, &value)) {
+            kinds.push(value);
         }
     }
     let quantity = |kind: &ValueOfCase| {
-        let value = |check: &CheckOfCase| {
-            check.values.iter().find(|value| is_same(kind, value)).map(|value| value.value)
-        };
         // A case without a result is worse than any with one.
-        let of_case = |&(case, check): &(u64, Option<&CheckOfCase>)| match check {
-            Some(check) => value(check).map(|value| (case, value)),
-            None => Some((case, f64::NAN)),
+        let of_case = |&(case, found): &(u64, FoundInCase<'_>)| match found {
+            FoundInCase::Checked(check) => {
+                check.values.iter().find(|value| is_same(kind, value)).map(|value| (case, value.value))
+            }
+            FoundInCase::NothingToCheck => None,
+            FoundInCase::Lost => Some((case, f64::NAN)),
         };
         let mut sorted: Vec<(u64, f64)> = found.iter().filter_map(of_case).collect();
         sorted.sort_by(|a, b| worse_first(kind.bound, a.1, b.1).then(a.0.cmp(&b.0)));
         in_cases(kind, &sorted, share)
     };
     let all: Vec<QuantityInCases> = kinds.iter().filter_map(quantity).collect();
-    // What is the same in all cases says nothing about them, as the distance of a pair that nothing moves.
-    let varies: Vec<QuantityInCases> = all.iter().filter(|quantity| varies(quantity)).cloned().collect();
-    if varies.is_empty() { all.into_iter().take(1).collect() } else { varies }
+    // What is the same in all cases says nothing about them, as the distance of a pair that nothing moves; unless it is why they fail.
+    let says_something = |quantity: &&QuantityInCases| varies(quantity) || !is_kept(quantity);
+    let telling: Vec<QuantityInCases> = all.iter().filter(says_something).cloned().collect();
+    if telling.is_empty() { all.into_iter().take(1).collect() } else { telling }
+}
+
+/// Whether every case keeps the limit.
+fn is_kept(quantity: &QuantityInCases) -> bool {
+    quantity.worst.is_some_and(|worst| quantity.bound.holds(worst, quantity.limit))
 }
 
 fn is_same(a: &ValueOfCase, b: &ValueOfCase) -> bool {
@@ -248,10 +293,12 @@ fn worse_first(bound: Bound, a: f64, b: f64) -> std::cmp::Ordering {
     }
 }
 
+/// A quantity from its value in each case, the worst first; cases without a result before all of them, as NaN.
 fn in_cases(kind: &ValueOfCase, worst_first: &[(u64, f64)], share: PassingShare) -> Option<QuantityInCases> {
-    let &(worst_case, _) = worst_first.first()?;
+    let lost = worst_first.iter().take_while(|(_, value)| value.is_nan()).count();
+    let known = &worst_first[lost..];
+    let &(worst_case, worst) = known.first().or(worst_first.first())?;
     let finite = |value: f64| value.is_finite().then_some(value);
-    let worst = worst_first.iter().map(|of| of.1).find(|value| !value.is_nan());
     let left_out = worst_left_out(share, worst_first.len() as u64).filter(|_| share.passing < 1.0);
     let quantile = left_out.and_then(|left_out| worst_first.get(usize::try_from(left_out).ok()?));
     Some(QuantityInCases {
@@ -260,11 +307,18 @@ fn in_cases(kind: &ValueOfCase, worst_first: &[(u64, f64)], share: PassingShare)
         limit: kind.limit,
         bound: kind.bound,
         of_changing_pairs: kind.is_of_changing_pairs,
-        worst: worst.and_then(finite),
-        worst_case: worst_first.iter().find(|of| !of.1.is_nan()).map_or(worst_case, |of| of.0),
-        median: finite(worst_first[worst_first.len() / 2].1),
+        worst: finite(worst),
+        worst_case,
+        median: median(known).and_then(finite),
         quantile_bound: quantile.and_then(|of| finite(of.1)),
     })
+}
+
+/// The median of sorted values: of an even number the mean of the two in the middle.
+fn median(sorted: &[(u64, f64)]) -> Option<f64> {
+    let above = sorted.get(sorted.len() / 2)?.1;
+    let below = sorted[(sorted.len() - 1) / 2].1;
+    Some(f64::midpoint(below, above))
 }
 
 fn varies(quantity: &QuantityInCases) -> bool {

@@ -50,7 +50,7 @@ impl RecordedSetup {
     /// Reads the log of a scenario once; `None` without one. What is wrong with it goes into `found`, what is suspicious into `warnings`.
     pub(in crate::setup) fn new(
         scenario: &Scenario,
-        WrittenAt { place, folder, stream }: WrittenAt<'_>,
+        WrittenAt { place, folder, stream, .. }: WrittenAt<'_>,
         description: &RobotDescription,
         found: &mut Diagnostics,
         warnings: &mut Vec<Diagnostic>,
