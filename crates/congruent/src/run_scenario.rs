@@ -4,10 +4,7 @@ use std::sync::atomic::AtomicBool;
 
 use congruent_input::{FileAccess, Findings};
 use congruent_results::{ExecuteError, Options, execute_with, files::OutputFolder, report::RunReport};
-use congruent_sweep::{
-    plan::SweepPlan,
-    run::{CaseRunner, CaseThreads},
-};
+use congruent_sweep::{CaseThreads, UncertainCases, plan::SweepPlan, run::CaseRunner};
 use congruent_twin::{Run, RunSetup};
 
 use crate::replay::explain_recorded;
@@ -19,11 +16,11 @@ pub struct PreparedScenario {
     pub setup: RunSetup,
     /// Number of threads for the cases; by default the number of cores.
     pub case_threads: usize,
-    cases: Option<UncertainCases>,
+    cases: Option<PlannedCases>,
 }
 
 #[derive(Debug, Clone)]
-struct UncertainCases {
+struct PlannedCases {
     plan: SweepPlan,
     access: FileAccess,
 }
@@ -61,7 +58,7 @@ impl PreparedScenario {
             setup.scenario.name = format!("{}_case_{case}", setup.scenario.name);
             return Ok(Self::without_cases(setup));
         }
-        let cases = Some(UncertainCases { access: access.clone(), plan });
+        let cases = Some(PlannedCases { access: access.clone(), plan });
         Ok(Self { cases, ..Self::without_cases(setup) })
     }
 
@@ -87,12 +84,15 @@ pub fn run_scenario<'a>(
     let interrupt = options.interrupt.unwrap_or(&never);
     let explain = |run: &mut Run<'_>, outcome: &mut _| {
         let mut after = explain_recorded(run, outcome);
-        after.cases = cases.as_ref().map(|cases| {
-            let of = cases.plan.cases;
-            let runner = CaseRunner::new(&cases.plan, cases.access.clone()).with_controllers_of(setup);
-            let threads = CaseThreads { jobs: *jobs, interrupt };
-            runner.run_uncertainty(&outcome.checks, threads, |ran| progress(RunStage::Cases { ran, of }))
-        });
+        if let Some(PlannedCases { plan, access }) = cases {
+            let runner = CaseRunner::new(plan, access.clone()).with_controllers_of(setup);
+            let (of, threads) = (plan.cases, CaseThreads { jobs: *jobs, interrupt });
+            let progress = |ran| progress(RunStage::Cases { ran, of });
+            let cases = UncertainCases::run(&runner, &outcome.checks, threads, progress);
+            // Memory refuses no row.
+            after.case_table = cases.csv(plan).ok();
+            after.cases = Some(cases.report);
+        }
         after
     };
     execute_with(setup, options, Run::new, explain, |steps| progress(RunStage::Steps(steps)))

@@ -10,7 +10,9 @@ use congruent_scenario::Scenario;
 use congruent_twin::{Outcome, Run, RunError, RunSetup};
 
 use crate::{
-    files::{ComparedResults, FolderError, OutputError, OutputFolder, REPORT, compare_results, read_result},
+    files::{
+        CASES, ComparedResults, FolderError, OutputError, OutputFolder, REPORT, compare_results, read_result,
+    },
     report::{AfterRun, RunReport, earlier_report, explain, write_junit},
 };
 
@@ -115,7 +117,8 @@ pub fn finished(setup: &RunSetup, options: &Options<'_>) -> Option<(RunReport, P
     let folder = OutputFolder::path_for(&options.out, &setup.scenario.name);
     let report = earlier_report(setup, &read_result(&folder.join(REPORT)).ok()?)?;
     let recordings = formats(setup, options).map(RecordingFormat::file_name);
-    let mut wanted = [REPORT, JUNIT, RESOLVED].into_iter().chain(recordings);
+    let cases = report.uncertainty.as_ref().map(|_| CASES);
+    let mut wanted = [REPORT, JUNIT, RESOLVED].into_iter().chain(cases).chain(recordings);
     let ComparedResults { intact, changed } = compare_results(&folder)?;
     (changed.is_empty() && wanted.all(|name| intact.contains(&name))).then_some((report, folder))
 }
@@ -226,11 +229,16 @@ pub fn record(
     let mut recorders = Recorders::default();
     recorders.0.extend(recordings.iter_mut().map(|(recording, _)| &mut **recording as &mut dyn Recorder));
     let (mut outcome, mut result) = run.finish(&mut setup.checks(), &mut recorders, progress);
-    let causes = explain(&mut run, &mut outcome);
+    let mut causes = explain(&mut run, &mut outcome);
+    let case_table = causes.case_table.take();
     let report = |result: &Result<(), RunError>| {
         RunReport::new(setup, &sources, outcome.clone(), causes.clone(), result.as_ref().err())
     };
     let (mut recorded, mut settled) = (report(&result), Vec::new());
+    // Before the page, which links to files that are there.
+    if let Some(table) = case_table {
+        settled.push(Settled { incomplete: None, result: folder.write(CASES, &table) });
+    }
     for (recording, file) in recordings {
         let closed = file.settle(folder, recording.finish(&recorded), &mut settled);
         if let Err(error) = closed {

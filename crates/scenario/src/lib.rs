@@ -59,5 +59,6 @@ pub use source::{
 };
 pub use spaces::{CylinderSettings, ObstacleSettings, ZoneSettings};
 pub use uncertainty::{
-    CaseSampling, NormalSettings, UncertaintySettings, VariedKeys, VarySettings, usual_confidence,
+    CaseSampling, NormalSettings, UncertaintySettings, VariedKeys, VarySettings, least_cases,
+    usual_confidence,
 };

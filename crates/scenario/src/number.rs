@@ -37,7 +37,7 @@ impl Range {
             Self::Positive => "a finite number above 0",
             Self::NonNegative => "a finite number, 0 or above",
             Self::Share => "a number from 0 to 1",
-            Self::InnerShare => "a number between 0 and 1, without both",
+            Self::InnerShare => "a number above 0 and below 1, such as 0.99 for 99 %",
         }
     }
 

@@ -11,7 +11,7 @@ use serde::{
 use crate::number::{inner_share, optional_array};
 
 /// `[uncertainty]`: values that are not known exactly. The scenario runs as it is written, and then once for each case with other
-/// values, which the controllers do not know.
+/// values. Controllers and planner know the masses, friction and robot that are written.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct UncertaintySettings {
@@ -20,7 +20,7 @@ pub struct UncertaintySettings {
     /// How the values of the cases are chosen.
     #[serde(default = "independent")]
     pub sampling: CaseSampling,
-    /// Confidence, below 1, with which the checks must hold in their share of all possible cases.
+    /// Confidence, below 1, with which each check must pass in its share of all possible cases.
     #[serde(default = "usual_confidence", deserialize_with = "inner_share")]
     pub confidence: f64,
     /// Run this case alone, from 0, with page and recording.
@@ -43,6 +43,25 @@ pub enum CaseSampling {
     LatinHypercube,
     /// Scrambled Sobol points: each further case fills a gap. Up to 40 keys.
     Sobol,
+}
+
+impl CaseSampling {
+    /// Why cases that are chosen so say nothing about the share of all possible ones; `None` if they do.
+    pub fn no_sample(self) -> Option<&'static str> {
+        (self == Self::Grid)
+            .then_some("the cases of a grid are chosen, not drawn: they show no share of all possible cases")
+    }
+}
+
+/// Number of cases that show, if none of them fails, that a share of all possible cases passes.
+///
+/// # Examples
+/// ```
+/// assert!((congruent_scenario::least_cases(0.99, 0.95) - 299.0).abs() < 0.5);
+/// ```
+pub fn least_cases(passing: f64, confidence: f64) -> f64 {
+    // The share to the power of the number is at most the remaining probability.
+    (libm::log(1.0 - confidence) / libm::log(passing)).ceil()
 }
 
 /// Independent draws: the bounds of the share of passing cases are then exact.

@@ -6,7 +6,7 @@
 
 use std::{path::Path, sync::atomic::AtomicBool};
 
-use congruent_input::{FileAccess, Override};
+use congruent_input::FileAccess;
 use congruent_monitors::NoRecorder;
 use congruent_sweep::{
     plan::SweepPlan,
@@ -24,7 +24,7 @@ fn main() {
 fn plan() -> SweepPlan {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/ur5e_payload.sweep.toml");
     let mut plan = SweepPlan::read(&path, &FileAccess::default()).expect("the plan is part of the project");
-    plan.set.push(Override::parse("motion.1.duration_s=1.0").expect("it has a key and a value"));
+    plan.set.push("motion.1.duration_s=1.0".parse().expect("it has a key and a value"));
     plan
 }
 

@@ -9,11 +9,11 @@ congruent_input::codes! {
         NOTHING_VARIES = "CGR-SWEEP-003", "sweep::nothing_varies",
             "Nothing varies in the plan, so all cases would be one. Add a [[vary]] with a key and a distribution.\n    wrong: no [[vary]]\n    right: [[vary]], key = \"payload.1.mass_kg\" and uniform = [0.5, 3.0]";
         DISTRIBUTION = "CGR-SWEEP-004", "sweep::distribution",
-            "A [[vary]] has no distribution, more than one, or one that has no values: give exactly one of uniform, log_uniform, normal, triangular and values, with numbers in ascending order. On a grid, a range needs steps.\n    wrong: uniform = [3.0, 0.5]\n    right: uniform = [0.5, 3.0]";
+            "A [[vary]] of a plan, or an [[uncertainty.vary]] of a scenario, has no distribution, more than one, or one that has no values: give exactly one of plus_minus, percent, uniform, log_uniform, normal, triangular and values, with numbers in ascending order. On a grid, a range needs steps.\n    wrong: uniform = [3.0, 0.5]\n    right: uniform = [0.5, 3.0]";
         CASES = "CGR-SWEEP-005", "sweep::cases",
             "The number of cases is missing, zero, or another than a grid gives. A grid has as many cases as its values have combinations; every other sampling needs the number.\n    cases = 1000";
         KEY = "CGR-SWEEP-006", "sweep::key",
-            "A key of the plan is not one of --set, or is there twice. Keys are those of the scenario joined by dots; a key that begins with robot. is of the robot.\n    wrong: key = \"payload[1].mass_kg\"\n    right: key = \"payload.1.mass_kg\"";
+            "A key of a plan or of [uncertainty] is not one of --set, is there twice, or cannot vary, as the name. Keys are those of the scenario joined by dots; a key that begins with robot. is of the robot.\n    wrong: key = \"payload[1].mass_kg\"\n    right: key = \"payload.1.mass_kg\"";
         OTHER_PLAN = "CGR-SWEEP-007", "sweep::other_plan",
             "The folder has cases of another plan, of other files, or of another version of this program, whose rows are not those of this one. Use another folder, or remove this one.\n    congruent sweep run plan.sweep.toml --out another_folder";
         RANGE = "CGR-SWEEP-008", "sweep::range",

@@ -9,5 +9,7 @@ pub mod run;
 mod sampling;
 pub mod store;
 pub mod summary;
+mod uncertain_cases;
 
 pub use congruent_scenario::CaseSampling;
+pub use uncertain_cases::{CaseThreads, UncertainCases};

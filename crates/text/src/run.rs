@@ -77,11 +77,8 @@ fn in_cases(text: &mut String, report: &RunReport, cases: &UncertaintyReport) {
     let varied: Vec<String> = cases.varied.iter().map(VariedValue::words).collect();
     *text += &paragraph(&format!("{}: {}", cases_title(cases), varied.join("; ")), 2, 4);
     for check in cases.checks_failed_first() {
-        let mut lines = case_lines(cases, check);
-        if let (true, Some(last)) = (check.is_default, lines.last_mut()) {
-            *last += " (default)";
-        }
-        labelled(text, [check.check.word(), check.requirement.verdict.status_word()], &lines);
+        let status = check.requirement.verdict.status_word();
+        labelled(text, [check.check.word(), status], &case_lines(cases, check));
     }
     for line in unfinished_words(cases) {
         *text += &paragraph(&line, 2, 4);

@@ -3,10 +3,10 @@
 use std::fmt::Write;
 
 use congruent_input::display::{counted, number};
-use congruent_results::report::requirement_sentence;
+use congruent_results::report::{KeyImportance, requirement_sentence};
 use congruent_sweep::{
     store::SweepProgress,
-    summary::{KeyImportance, MeasureSummary, SweepSummary},
+    summary::{MeasureSummary, SweepSummary},
 };
 
 use super::layout::{Table, paragraph};
@@ -80,12 +80,8 @@ fn decided_by(measure: &MeasureSummary) -> String {
     let percent = |share: f64| format!("{:.0}", 100.0 * share);
     let words = |key: &KeyImportance| {
         let [from, to] = key.interval.map(percent);
-        let direction = match key.rank_correlation {
-            correlation if correlation > 0.3 => ", more makes it larger",
-            correlation if correlation < -0.3 => ", more makes it smaller",
-            _ => "",
-        };
-        format!("{} decides {} % of its variance ({from} to {to} %{direction})", key.key, percent(key.share))
+        let direction = key.direction().map_or_else(String::new, |direction| format!(", {direction}"));
+        format!("{} decides {} of its variance ({from} to {to} %{direction})", key.key, key.percent())
     };
     let deciding: Vec<String> = deciding.map(words).collect();
     if deciding.is_empty() {

@@ -3,7 +3,7 @@
 congruent_input::codes! {
     scenario {
         UNCERTAINTY = "CGR-SCENARIO-097", "scenario::uncertainty",
-            "[uncertainty] has nothing that varies, a wrong number of cases, or is beside what it excludes; or a check has a share of cases, and the scenario has no [uncertainty].\n    wrong: passing = 0.99 without [uncertainty]\n    right: passing = 0.99, [uncertainty] with cases = 300, and [[uncertainty.vary]]";
+            "[uncertainty] has nothing that varies, or a number of cases below 1 or above 100,000; or it cannot be combined with another part: `passing` of a check needs [uncertainty], and a sampling other than a grid; [source] and [expect] verdict = \"fail\" exclude it; `case` is the number of a case, from 0.\n    wrong: passing = 0.99 without [uncertainty]\n    right: passing = 0.99, [uncertainty] with cases = 300, and [[uncertainty.vary]]";
         FEW_CASES = "CGR-SCENARIO-098", "scenario::few_cases",
             "The number of cases cannot show what a check asks for, even if no case fails: the answer can only be that there are not enough. Without a failure, 29 cases show 90 % with confidence 95 %, 59 show 95 %, and 299 show 99 %.\n    wrong: cases = 100 and passing = 0.99\n    right: cases = 300 and passing = 0.99";
         SEED = "CGR-SCENARIO-003", "scenario::seed",

@@ -2,10 +2,11 @@
 
 use congruent_results::report::{
     CaseOfRun, CheckInCases, QuantityWords, RequirementVerdict, RunReport, UncertaintyReport, cases_title,
-    passes_in, unfinished_words,
+    decided_by, passes_in, unfinished_words,
 };
 use maud::{Markup, html};
 
+use super::histogram::histogram;
 use crate::parts::{BadgeKind, badge, capitalised};
 
 /// What varies, and the table of checks, those first that do not pass in enough cases; nothing for a scenario without cases. A case that
@@ -25,12 +26,12 @@ pub(super) fn cases(report: &RunReport) -> Markup {
                 }
             }
             table.checks {
-                thead { tr { th { "check" } th { "result" } th { "quantity" } th { "of all cases" } th { "worst" } th { "median" } th { "limit" } } }
+                thead { tr { th { "check" } th { "result" } th { "quantity" } th { "of all cases" } th { "worst" } th { "median" } th { "limit" } th { "cases" } } }
                 @for check in cases.checks_failed_first() { (rows(cases, check)) }
             }
             @for line in unfinished_words(cases) { p { (line) } }
             @if let Some((what, command)) = report.command_of_case() { p { "To see " (what) ": " code { (command) } } }
-            p.small { "Everything else on this page is the run with the values of the file." }
+            p.small { "Small pictures show how the values of the cases are distributed; the line is the limit. Everything else on this page is the run with the values of the file." }
         }
     }
 }
@@ -62,9 +63,9 @@ fn rows(cases: &UncertaintyReport, check: &CheckInCases) -> Markup {
             tr {
                 th scope="row" { (check.check) @if check.is_default { span.small { " (default)" } } @if let Some(line) = check.line { span.small { " line " (line) } } }
                 td { (badge(outcome, check.requirement.verdict.status_word())) }
-                td colspan="5" { (passes_in(cases, check)) }
+                td colspan="6" { (passes_in(cases, check)) }
             }
-            @for QuantityWords { what, kept, worst, median, limit } in check.quantities.iter().map(words) {
+            @for (of, QuantityWords { what, kept, worst, median, limit }) in check.quantities.iter().map(|of| (of, words(of))) {
                 tr {
                     td.again {} td.again {}
                     td data-label="quantity" { (what) }
@@ -72,6 +73,10 @@ fn rows(cases: &UncertaintyReport, check: &CheckInCases) -> Markup {
                     td data-label="worst" { (worst) }
                     td data-label="median" { (median.unwrap_or_else(|| "the same".to_owned())) }
                     td data-label="limit" { (limit.unwrap_or_default()) }
+                    td data-label="cases" { (histogram(of)) }
+                }
+                @if let Some(deciding) = decided_by(&of.deciding) {
+                    tr.notes { td.again {} td.again {} td colspan="6" { (deciding) } }
                 }
             }
         }

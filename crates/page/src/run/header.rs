@@ -7,18 +7,22 @@ use congruent_input::{
     serde_name,
 };
 use congruent_monitors::verdict::{Status, Verdict};
-use congruent_results::report::{RunReport, SourceReport, lines, quantity_words, verdict_word};
+use congruent_results::{
+    files::CASES,
+    report::{RunReport, SourceReport, lines, quantity_words, verdict_word},
+};
 use maud::{Markup, html};
 
 use super::tightest::{Tightest, tightest};
 use crate::parts::{BadgeKind, Pointer, Provenance, badge, capitalised, count, provenance, value};
 
 /// Files of the results that may be there, with what they are. The first two are written before the page.
-const FILES: [(&str, &str); 7] = [
+const FILES: [(&str, &str); 8] = [
     ("recording.rrd", "recording for the rerun viewer"),
     ("trajectory.csv", "every sample as a table"),
     ("trajectory.parquet", "every sample as a table"),
     ("trajectory.mcap", "every sample as a log of ROS 2"),
+    (CASES, "a row for each case"),
     ("report.json", "all values of this page"),
     ("junit.xml", "the checks as test cases"),
     ("scenario.resolved.toml", "the scenario with every default written out"),

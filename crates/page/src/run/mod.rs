@@ -10,6 +10,7 @@ mod failures;
 mod faults;
 mod figures;
 mod header;
+mod histogram;
 mod joints;
 mod over_time;
 mod page;

@@ -1,7 +1,8 @@
 //! The tables of a sweep's page: which value matters, the worst cases, those that could not be run.
 
 use congruent_input::display::number;
-use congruent_sweep::summary::{KeyImportance, SmallestMargin, SweepSummary};
+use congruent_results::report::KeyImportance;
+use congruent_sweep::summary::{SmallestMargin, SweepSummary};
 use maud::{Markup, html};
 
 use super::class;

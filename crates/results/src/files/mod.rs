@@ -8,5 +8,5 @@ mod whole_file;
 
 pub use digests::{ComparedResults, compare_results, read_result};
 pub use folder::{FolderError, OutputFolder};
-pub use names::{DIGESTS, REPORT, result_files};
+pub use names::{CASES, DIGESTS, REPORT, result_files};
 pub use whole_file::{OutputError, is_same_file, remove_unfinished_files, write_whole};

@@ -8,8 +8,11 @@ pub const REPORT: &str = "report.json";
 /// The file with the SHA-256 of every other result. It is written last: without it a run has not ended.
 pub const DIGESTS: &str = "SHA256SUMS";
 
+/// The file with a row for each case of `[uncertainty]`.
+pub const CASES: &str = "cases.csv";
+
 /// All files that a run may write, except for their digests.
-pub(super) const RESULTS: [&str; 13] = [
+pub(super) const RESULTS: [&str; 14] = [
     REPORT,
     "report.html",
     "report.html.partial",
@@ -23,6 +26,7 @@ pub(super) const RESULTS: [&str; 13] = [
     "trajectory.mcap",
     "trajectory.mcap.partial",
     "scenario.resolved.toml",
+    CASES,
 ];
 
 /// Every file that a run may write to a folder.

@@ -29,6 +29,8 @@ pub struct AfterRun {
     pub samples: Option<RunDiagnosis>,
     /// The cases of `[uncertainty]`, if the scenario has some.
     pub cases: Option<UncertaintyReport>,
+    /// The same as the text of `cases.csv`, a row for each case.
+    pub case_table: Option<Vec<u8>>,
 }
 
 impl AfterRun {

@@ -19,9 +19,9 @@ mod verdict_sentence;
 pub use after_run::{AfterRun, diagnose_run, explain};
 pub use annotations::github_annotations;
 pub use cases::{
-    CaseChecks, CheckInCases, PassingShare, QuantityInCases, QuantityWords, RequirementResult,
-    RequirementVerdict, UncertaintyReport, UnfinishedCase, VariedValue, case_lines, cases_title, passes_in,
-    requirement_sentence, unfinished_words,
+    CaseChecks, CaseHistogram, CheckInCases, KeyImportance, PassingShare, QuantityInCases, QuantityWords,
+    RequirementResult, RequirementVerdict, UncertaintyReport, UnfinishedCase, VariedValue, case_lines,
+    cases_title, decided_by, passes_in, requirement_sentence, unfinished_words,
 };
 pub use earlier::earlier_report;
 pub use fault_table::{DetectedBy, FaultRow, FaultTable};

@@ -17,7 +17,7 @@ pub struct DynamicsCheck {
     /// of a step: the physics integrates to first order.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub relative: Option<f64>,
-    /// Share of all possible cases of `[uncertainty]` in which the check must hold, below 1; default: in each case that runs.
+    /// Share of all possible cases of `[uncertainty]` in which the check must pass, below 1; default: in every case of the run.
     #[serde(default, deserialize_with = "optional_inner_share", skip_serializing_if = "Option::is_none")]
     pub passing: Option<f64>,
     /// What the run does at the first violation of the check.
@@ -38,7 +38,7 @@ pub struct EffortCheck {
     /// default 0.5.
     #[serde(default, deserialize_with = "optional_share", skip_serializing_if = "Option::is_none")]
     pub unexplained_share: Option<f64>,
-    /// Share of all possible cases of `[uncertainty]` in which the check must hold, below 1; default: in each case that runs.
+    /// Share of all possible cases of `[uncertainty]` in which the check must pass, below 1; default: in every case of the run.
     #[serde(default, deserialize_with = "optional_inner_share", skip_serializing_if = "Option::is_none")]
     pub passing: Option<f64>,
     /// What the run does at the first violation of the check.
@@ -54,7 +54,7 @@ pub struct PowerCheck {
     /// length of a step: the physics integrates to first order.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub relative: Option<f64>,
-    /// Share of all possible cases of `[uncertainty]` in which the check must hold, below 1; default: in each case that runs.
+    /// Share of all possible cases of `[uncertainty]` in which the check must pass, below 1; default: in every case of the run.
     #[serde(default, deserialize_with = "optional_inner_share", skip_serializing_if = "Option::is_none")]
     pub passing: Option<f64>,
     /// What the run does at the first violation of the check.

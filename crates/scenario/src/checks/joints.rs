@@ -46,7 +46,7 @@ pub struct LimitsCheck {
     /// Largest share of a joint's effort limit; default 1.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub effort_share: Option<f64>,
-    /// Share of all possible cases of `[uncertainty]` in which the check must hold, below 1; default: in each case that runs.
+    /// Share of all possible cases of `[uncertainty]` in which the check must pass, below 1; default: in every case of the run.
     #[serde(default, deserialize_with = "optional_inner_share", skip_serializing_if = "Option::is_none")]
     pub passing: Option<f64>,
     /// What the run does at the first violation of the check.
@@ -113,7 +113,7 @@ pub struct TrackingCheck {
     /// The same in millimetres.
     #[serde(default, deserialize_with = "optional_non_negative", skip_serializing_if = "Option::is_none")]
     pub overshoot_mm: Option<f64>,
-    /// Share of all possible cases of `[uncertainty]` in which the check must hold, below 1; default: in each case that runs.
+    /// Share of all possible cases of `[uncertainty]` in which the check must pass, below 1; default: in every case of the run.
     #[serde(default, deserialize_with = "optional_inner_share", skip_serializing_if = "Option::is_none")]
     pub passing: Option<f64>,
     /// What the run does at the first violation of the check.
@@ -140,7 +140,7 @@ pub struct CycleTimeCheck {
     /// The same in millimetres.
     #[serde(default, deserialize_with = "optional_non_negative", skip_serializing_if = "Option::is_none")]
     pub tolerance_mm: Option<f64>,
-    /// Share of all possible cases of `[uncertainty]` in which the check must hold, below 1; default: in each case that runs.
+    /// Share of all possible cases of `[uncertainty]` in which the check must pass, below 1; default: in every case of the run.
     #[serde(default, deserialize_with = "optional_inner_share", skip_serializing_if = "Option::is_none")]
     pub passing: Option<f64>,
     /// What the run does at the first violation of the check.

@@ -29,7 +29,7 @@ pub struct AgreementCheck {
     /// The same in degrees.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub orientation_deg: Option<f64>,
-    /// Share of all possible cases of `[uncertainty]` in which the check must hold, below 1; default: in each case that runs.
+    /// Share of all possible cases of `[uncertainty]` in which the check must pass, below 1; default: in every case of the run.
     #[serde(default, deserialize_with = "optional_inner_share", skip_serializing_if = "Option::is_none")]
     pub passing: Option<f64>,
     /// What the run does at the first violation of the check.
@@ -55,7 +55,7 @@ pub struct GoalCheck {
     /// The same in degrees.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub orientation_deg: Option<f64>,
-    /// Share of all possible cases of `[uncertainty]` in which the check must hold, below 1; default: in each case that runs.
+    /// Share of all possible cases of `[uncertainty]` in which the check must pass, below 1; default: in every case of the run.
     #[serde(default, deserialize_with = "optional_inner_share", skip_serializing_if = "Option::is_none")]
     pub passing: Option<f64>,
     /// What the run does at the first violation of the check.
@@ -80,7 +80,7 @@ pub struct TwistCheck {
     /// The same in deg/s.
     #[serde(default, deserialize_with = "optional_non_negative", skip_serializing_if = "Option::is_none")]
     pub angular_deg_s: Option<f64>,
-    /// Share of all possible cases of `[uncertainty]` in which the check must hold, below 1; default: in each case that runs.
+    /// Share of all possible cases of `[uncertainty]` in which the check must pass, below 1; default: in every case of the run.
     #[serde(default, deserialize_with = "optional_inner_share", skip_serializing_if = "Option::is_none")]
     pub passing: Option<f64>,
     /// What the run does at the first violation of the check.
@@ -96,7 +96,7 @@ pub struct InvariantsCheck {
     /// Default: a small multiple of rounding.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub rotation: Option<f64>,
-    /// Share of all possible cases of `[uncertainty]` in which the check must hold, below 1; default: in each case that runs.
+    /// Share of all possible cases of `[uncertainty]` in which the check must pass, below 1; default: in every case of the run.
     #[serde(default, deserialize_with = "optional_inner_share", skip_serializing_if = "Option::is_none")]
     pub passing: Option<f64>,
     /// What the run does at the first violation of the check.

@@ -29,7 +29,7 @@ pub struct ClearanceCheck {
     /// Pairs that are not checked, in either order; in a name, `*` matches any characters.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub ignore: Vec<[String; 2]>,
-    /// Share of all possible cases of `[uncertainty]` in which the check must hold, below 1; default: in each case that runs.
+    /// Share of all possible cases of `[uncertainty]` in which the check must pass, below 1; default: in every case of the run.
     #[serde(default, deserialize_with = "optional_inner_share", skip_serializing_if = "Option::is_none")]
     pub passing: Option<f64>,
     /// What the run does at the first violation of the check.
@@ -59,7 +59,7 @@ pub struct ContactCheck {
     /// Pairs that are not checked, in either order; in a name, `*` matches any characters.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub ignore: Vec<[String; 2]>,
-    /// Share of all possible cases of `[uncertainty]` in which the check must hold, below 1; default: in each case that runs.
+    /// Share of all possible cases of `[uncertainty]` in which the check must pass, below 1; default: in every case of the run.
     #[serde(default, deserialize_with = "optional_inner_share", skip_serializing_if = "Option::is_none")]
     pub passing: Option<f64>,
     /// What the run does at the first violation of the check.
@@ -71,7 +71,7 @@ pub struct ContactCheck {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ZoneCheck {
-    /// Share of all possible cases of `[uncertainty]` in which the check must hold, below 1; default: in each case that runs.
+    /// Share of all possible cases of `[uncertainty]` in which the check must pass, below 1; default: in every case of the run.
     #[serde(default, deserialize_with = "optional_inner_share", skip_serializing_if = "Option::is_none")]
     pub passing: Option<f64>,
     /// What the run does at the first violation of the check.

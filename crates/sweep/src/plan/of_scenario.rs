@@ -23,7 +23,7 @@ const FIXED: [(&str, &str); 6] = [
     ("folder", "it says where the files are"),
     ("source", "a log has no cases"),
 ];
-/// The key of the robot, which cannot vary, but for the values inside of it.
+/// The key of the robot, which cannot vary by itself; the values inside of it can.
 const ROBOT: &str = "robot";
 /// Keys of distributions.
 const DISTRIBUTIONS: [&str; 7] =

@@ -114,6 +114,11 @@ impl SweepPlan {
 }
 
 impl SweepPlan {
+    /// The varied keys, in the order of the values of a case; several that get one value are joined by commas.
+    pub fn keys(&self) -> Vec<String> {
+        self.varied.iter().map(|varied| varied.keys.join(", ")).collect()
+    }
+
     /// The overrides that give a value to a varied key.
     fn overrides_of<'a>(
         &'a self,

@@ -16,14 +16,15 @@ pub(super) fn passing_share(
     let WrittenRequirement { passing, confidence } = written;
     for (name, value) in [("passing", passing), ("confidence", confidence)] {
         if !Range::InnerShare.contains(value) {
-            return Err(fault(format!("{name} = {value} is not between 0 and 1, without both")).with_help(
+            return Err(fault(format!("{name} = {value} is not above 0 and below 1")).with_help(
                 "passing = 0.99 and confidence = 0.95: that every case passes, no number of cases shows",
             ));
         }
     }
-    if sampling == CaseSampling::Grid {
-        return Err(fault("a grid is no sample of the cases, so it shows no share of them".to_owned())
-            .with_help("sampling = \"latin_hypercube\", \"sobol\" or \"random\""));
+    if let Some(why) = sampling.no_sample() {
+        return Err(
+            fault(why.to_owned()).with_help("sampling = \"latin_hypercube\", \"sobol\" or \"random\"")
+        );
     }
     Ok(PassingShare { passing, confidence })
 }

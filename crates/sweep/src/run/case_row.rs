@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use congruent_input::{Quantity, SiUnit};
 use congruent_monitors::verdict::{Bound, CheckResult, Measure, Status, Verdict};
 use congruent_results::report::RunReport;
 use schemars::JsonSchema;
@@ -105,7 +106,7 @@ impl From<Verdict> for CaseVerdict {
 
 impl CaseRow {
     /// The row of a case whose scenario cannot be run.
-    pub(super) fn refused(case: SweepCase, error: String) -> Self {
+    pub(crate) fn refused(case: SweepCase, error: String) -> Self {
         let SweepCase { case, seed, values, .. } = case;
         Self {
             case,
@@ -122,7 +123,7 @@ impl CaseRow {
     }
 
     /// The row of a case that ran.
-    pub(super) fn of_run(case: SweepCase, report: &RunReport) -> Self {
+    pub(crate) fn of_run(case: SweepCase, report: &RunReport) -> Self {
         let names = check_names(&report.checks);
         let failed = names.iter().zip(&report.checks).filter(|(_, check)| check.status == Status::Fail);
         let causes = report.diagnosis.as_ref().map(|diagnosis| diagnosis.sentences().join("; "));
@@ -147,7 +148,7 @@ impl CaseRow {
 }
 
 /// A name for each check: its kind, with a number from the second of a kind on.
-fn check_names(checks: &[CheckResult]) -> Vec<String> {
+pub(crate) fn check_names(checks: &[CheckResult]) -> Vec<String> {
     let name = |(at, check): (usize, &CheckResult)| {
         let before = checks[..at].iter().filter(|other| other.check == check.check).count();
         let kind = check.check.word();
@@ -157,11 +158,14 @@ fn check_names(checks: &[CheckResult]) -> Vec<String> {
 }
 
 /// A name for a quantity of a check, with its unit: `clearance.distance_m`.
-fn measure_name(check: &str, measure: &Measure) -> String {
-    let unit = measure.unit.symbol().replace('/', "_").replace(['^', ' '], "");
-    let quantity = measure.quantity.name().replace(' ', "_");
+pub(crate) fn measure_name(check: &str, quantity: Quantity, unit: SiUnit) -> String {
+    let unit = unit.symbol().replace('/', "_").replace(['^', ' '], "");
+    let quantity = quantity.name().replace(' ', "_");
     if unit.is_empty() { format!("{check}.{quantity}") } else { format!("{check}.{quantity}_{unit}") }
 }
+
+/// The end of the name of a distance that is the smallest one of the pairs whose distance changes.
+pub(crate) const OF_CHANGING_PAIRS: &str = ".changing";
 
 fn worst(names: &[String], checks: &[CheckResult]) -> BTreeMap<String, WorstValue> {
     let mut worst: BTreeMap<String, WorstValue> = BTreeMap::new();
@@ -170,14 +174,14 @@ fn worst(names: &[String], checks: &[CheckResult]) -> BTreeMap<String, WorstValu
             let Some(moment) = &measure.worst else { continue };
             let found = worst_value(measure, moment.value);
             // A check that fails may have a measure for each pair or link: the worst of them is the check's.
-            let known = worst.entry(measure_name(name, measure)).or_insert(found);
+            let known = worst.entry(measure_name(name, measure.quantity, measure.unit)).or_insert(found);
             if measure.bound.is_worse(found.value.unwrap_or(f64::NAN), known.value.unwrap_or(f64::NAN)) {
                 *known = found;
             }
         }
         if let (Some(measure), Some(changing)) = (check.measures.first(), &check.nearest_that_changes) {
             // Beside a pair that keeps its distance, which says nothing about the case.
-            let name = format!("{}.changing", measure_name(name, measure));
+            let name = measure_name(name, measure.quantity, measure.unit) + OF_CHANGING_PAIRS;
             worst.insert(name, worst_value(measure, changing.value));
         }
     }

@@ -44,7 +44,7 @@ impl<'a> CaseRunner<'a> {
     /// written.
     #[must_use]
     pub fn with_controllers_of(self, nominal: &RunSetup) -> Self {
-        Self { known: Some(Arc::new(KnownValues::of(nominal))), ..self }
+        Self { known: Some(Arc::new(nominal.known_values())), ..self }
     }
 
     /// The plan.
@@ -53,7 +53,7 @@ impl<'a> CaseRunner<'a> {
     }
 
     /// The values that controllers and planner of the cases know.
-    pub(super) fn known(&self) -> Option<&KnownValues> {
+    pub(crate) fn known(&self) -> Option<&KnownValues> {
         self.known.as_deref()
     }
 
@@ -141,7 +141,7 @@ impl<'a> CaseRunner<'a> {
     }
 
     /// The report of a case, or why it cannot be run; `None` if it was interrupted.
-    pub(super) fn report(
+    pub(crate) fn report(
         &self,
         case: &SweepCase,
         interrupt: &AtomicBool,

@@ -69,7 +69,7 @@ impl SweepHeader {
             sampling: plan.sampling,
             cases: plan.cases,
             seed: plan.seed,
-            keys: plan.varied.iter().map(|varied| varied.keys.join(", ")).collect(),
+            keys: plan.keys(),
             files,
             versions: Versions::current(),
             identity: String::new(),

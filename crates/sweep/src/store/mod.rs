@@ -15,5 +15,5 @@ pub use header::SweepHeader;
 pub use merged::{MergedTable, table_sha256};
 pub use progress::SweepProgress;
 pub(crate) use progress::verdict_counts;
-pub(crate) use tables::number;
 pub use tables::{CASES_CSV, CASES_PARQUET, write_tables};
+pub(crate) use tables::{csv_of_rows, number};

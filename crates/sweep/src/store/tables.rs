@@ -38,16 +38,26 @@ const BEHIND: [(&str, ColumnKind); 7] = [
 /// # Errors
 /// One cannot be written.
 pub fn write_tables(table: &MergedTable, folder: &Path) -> Result<(), TableWriteError> {
-    let columns = CaseColumns::of(table);
+    let (rows, columns) = (&table.rows, CaseColumns::of(&table.header.keys, &table.rows));
     let written = columns.written();
     let partial = |name: &str| folder.join(format!("{name}.partial"));
     let csv = Box::new(CsvTable::create(&partial(CASES_CSV), &written)?);
-    columns.write(table, csv)?;
+    columns.write(rows, csv)?;
     // Parquet makes no table where there is one, as of a call that was killed.
     let parquet = partial(CASES_PARQUET);
     let _ = std::fs::remove_file(&parquet);
-    columns.write(table, Box::new(ParquetTable::create(&parquet, "cases", &written)?))?;
+    columns.write(rows, Box::new(ParquetTable::create(&parquet, "cases", &written)?))?;
     [CASES_CSV, CASES_PARQUET].into_iter().try_for_each(|name| renamed(&partial(name), &folder.join(name)))
+}
+
+/// Rows whose values are of these keys as the text of a CSV file.
+///
+/// # Errors
+/// None that memory has.
+pub(crate) fn csv_of_rows(keys: &[String], rows: &[CaseRow]) -> Result<Vec<u8>, TableWriteError> {
+    let (columns, mut text) = (CaseColumns::of(keys, rows), Vec::new());
+    columns.write(rows, Box::new(CsvTable::to(&mut text, &columns.written())?))?;
+    Ok(text)
 }
 
 fn renamed(from: &PathBuf, to: &PathBuf) -> Result<(), TableWriteError> {
@@ -63,11 +73,11 @@ struct CaseColumns {
 }
 
 impl CaseColumns {
-    fn of(table: &MergedTable) -> Self {
-        let is_number = |at: usize| table.rows.iter().all(|row| number(&row.values[at]).is_some());
+    fn of(keys: &[String], rows: &[CaseRow]) -> Self {
+        let is_number = |at: usize| rows.iter().all(|row| number(&row.values[at]).is_some());
         // The seed has a column already.
-        let keys = table.header.keys.iter().enumerate().filter(|(_, key)| *key != SEED);
-        let measures: BTreeSet<&String> = table.rows.iter().flat_map(|row| row.worst.keys()).collect();
+        let keys = keys.iter().enumerate().filter(|(_, key)| *key != SEED);
+        let measures: BTreeSet<&String> = rows.iter().flat_map(|row| row.worst.keys()).collect();
         Self {
             keys: keys.map(|(at, key)| (at, key.clone(), is_number(at))).collect(),
             measures: measures.into_iter().cloned().collect(),
@@ -90,8 +100,8 @@ impl CaseColumns {
         columns
     }
 
-    fn write(&self, table: &MergedTable, mut writer: Box<dyn TableWriter>) -> Result<(), TableWriteError> {
-        for row in &table.rows {
+    fn write(&self, rows: &[CaseRow], mut writer: Box<dyn TableWriter + '_>) -> Result<(), TableWriteError> {
+        for row in rows {
             self.write_row(row, &mut *writer);
             writer.end_row()?;
         }

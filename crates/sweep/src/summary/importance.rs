@@ -1,8 +1,6 @@
 //! Which varied value decides a quantity: the share of its variance that follows from that value alone.
 
-use schemars::JsonSchema;
-use serde::Serialize;
-
+use congruent_results::report::KeyImportance;
 use congruent_scenario::CaseSampling;
 
 /// Groups of cases that are left out in turn, for the uncertainty. Kind: choice.
@@ -15,20 +13,6 @@ const FEWEST_IN_INTERVAL: usize = 8;
 const FEWEST: usize = 2 * GROUPS;
 /// Standard deviations on both sides of 95 % of a normal distribution.
 const SIGMAS_95: f64 = 1.96;
-
-/// How much of the variance of a quantity follows from one varied value.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct KeyImportance {
-    /// The key.
-    pub key: String,
-    /// Share of the variance that follows from this value alone: the first-order sensitivity index. Near 0 it may be negative,
-    /// which is chance.
-    pub share: f64,
-    /// Its interval of 95 % confidence.
-    pub interval: [f64; 2],
-    /// Rank correlation of value and quantity, from -1 to 1: whether more makes it larger. 0 for words.
-    pub rank_correlation: f64,
-}
 
 /// Sums of the quantity over some cases.
 #[derive(Debug, Clone, Copy, Default)]

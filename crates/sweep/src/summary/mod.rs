@@ -3,5 +3,6 @@
 mod importance;
 mod sweep_summary;
 
-pub use importance::{KeyImportance, importance};
+pub use importance::importance;
+pub(crate) use sweep_summary::importances;
 pub use sweep_summary::{MeasureSummary, SmallestMargin, SweepSummary};

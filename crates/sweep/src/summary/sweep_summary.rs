@@ -2,11 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use congruent_results::report::{PassingShare, RequirementResult};
+use congruent_results::report::{KeyImportance, PassingShare, RequirementResult};
+use congruent_scenario::CaseSampling;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::importance::{KeyImportance, importance};
+use super::importance::importance;
 use crate::{
     run::{CaseRow, CaseVerdict},
     store::{MergedTable, SweepHeader, number, table_sha256, verdict_counts},
@@ -163,15 +164,7 @@ fn measure(table: &MergedTable, name: &str, rows: &[&CaseRow]) -> Option<Measure
     let (least_case, least_margin) = margins.min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)))?;
     let outside = rows.iter().filter(|row| of(row).is_some_and(|worst| worst.is_outside));
     let quantity: Vec<f64> = rows.iter().map(|row| value(row).unwrap_or(f64::NAN)).collect();
-    let of_key = |(at, key): (usize, &String)| {
-        let (values, are_numbers) = key_values(rows, at);
-        let found = importance(key, &values, &quantity, table.header.sampling)?;
-        // Words have no more and less.
-        Some(if are_numbers { found } else { KeyImportance { rank_correlation: 0.0, ..found } })
-    };
-    let mut importance: Vec<KeyImportance> =
-        table.header.keys.iter().enumerate().filter_map(of_key).collect();
-    importance.sort_by(|a, b| b.share.total_cmp(&a.share).then(a.key.cmp(&b.key)));
+    let importance = importances(&table.header.keys, table.header.sampling, rows, &quantity);
     Some(MeasureSummary {
         name: name.to_owned(),
         range,
@@ -180,6 +173,24 @@ fn measure(table: &MergedTable, name: &str, rows: &[&CaseRow]) -> Option<Measure
         outside: outside.count() as u64,
         importance,
     })
+}
+
+/// The importance of each key for a quantity of these rows, the one that decides most first.
+pub(crate) fn importances(
+    keys: &[String],
+    sampling: CaseSampling,
+    rows: &[&CaseRow],
+    quantity: &[f64],
+) -> Vec<KeyImportance> {
+    let of_key = |(at, key): (usize, &String)| {
+        let (values, are_numbers) = key_values(rows, at);
+        let found = importance(key, &values, quantity, sampling)?;
+        // Words have no more and less.
+        Some(if are_numbers { found } else { KeyImportance { rank_correlation: 0.0, ..found } })
+    };
+    let mut importances: Vec<KeyImportance> = keys.iter().enumerate().filter_map(of_key).collect();
+    importances.sort_by(|a, b| b.share.total_cmp(&a.share).then(a.key.cmp(&b.key)));
+    importances
 }
 
 /// The values of a key as numbers, and whether they are some: of words, the place of each in their order.

@@ -11,8 +11,8 @@ const ROWS_A_FLUSH: u32 = 1000;
 
 /// A table as comma-separated values.
 #[derive(Debug)]
-pub struct CsvTable {
-    file: Writer<File>,
+pub struct CsvTable<W: io::Write = File> {
+    file: Writer<W>,
     text: String,
     rows: u32,
     /// The first error of a row, which is reported at its end.
@@ -25,13 +25,26 @@ impl CsvTable {
     /// # Errors
     /// It cannot be written.
     pub fn create(path: &Path, columns: &[WrittenColumn]) -> Result<Self, TableWriteError> {
-        let mut file = Writer::from_path(path).map_err(failed)?;
+        Self::new(Writer::from_path(path).map_err(failed)?, columns)
+    }
+}
+
+impl<W: io::Write> CsvTable<W> {
+    /// A table with its header that goes to a writer.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub fn to(writer: W, columns: &[WrittenColumn]) -> Result<Self, TableWriteError> {
+        Self::new(Writer::from_writer(writer), columns)
+    }
+
+    fn new(mut file: Writer<W>, columns: &[WrittenColumn]) -> Result<Self, TableWriteError> {
         file.write_record(columns.iter().map(|column| &column.name)).map_err(failed)?;
         Ok(Self { file, text: String::new(), rows: 0, error: None })
     }
 }
 
-impl TableWriter for CsvTable {
+impl<W: io::Write> TableWriter for CsvTable<W> {
     fn cell(&mut self, cell: WrittenCell<'_>) {
         self.text.clear();
         let written = match cell {

@@ -10,11 +10,13 @@ use super::written_at::WrittenAt;
 /// The motions, planned one after another.
 pub(super) fn trajectory(
     scenario: &Scenario,
-    WrittenAt { place, folder, .. }: WrittenAt<'_>,
+    WrittenAt { place, folder, known, .. }: WrittenAt<'_>,
     description: &RobotDescription,
     start: &RobotQ,
     warnings: &mut Vec<Diagnostic>,
 ) -> Result<Trajectory, Findings> {
+    // A planner knows its own robot, whatever the simulated one is.
+    let description = known.unwrap_or(description);
     let limits = motion_limits::build(&scenario.limits, place.key("limits"), description)?;
     let places = place.key("motion");
     let input = MotionInput { motions: &scenario.motion, places, limits: &limits, folder };

@@ -135,8 +135,7 @@ impl RunSetup {
         found.keep(check_head(&scenario, place));
         let start = found.keep(start(&scenario.start, place.key("start"), robot));
         let start = inside_limits(start, &scenario, robot, &mut warnings);
-        let planned_for = written.known.unwrap_or(&description);
-        let trajectory = found.keep(trajectory(&scenario, written, planned_for, &start, &mut warnings));
+        let trajectory = found.keep(trajectory(&scenario, written, &description, &start, &mut warnings));
         // Without a plan the duration as written stands in, so that the clock is checked in the same call.
         let motions_s = trajectory.as_ref().map_or_else(|| written_s(&scenario), Trajectory::duration_s);
         let RunTiming { clock, recorded, warnings: of_timing } =
@@ -287,6 +286,18 @@ impl RunSetup {
     /// The robot that controllers and planner know. In a case of `[uncertainty]` it is that of the files.
     pub fn known_description(&self) -> &RobotDescription {
         self.uncertain_case.as_ref().map_or(&self.description, |case| &case.known.description)
+    }
+
+    /// What controllers and planner know in cases of this scenario: its values as they are written.
+    pub fn known_values(&self) -> KnownValues {
+        KnownValues {
+            scenario: self.scenario.clone(),
+            description: self.description.clone(),
+            overrides: self.overrides.clone(),
+            payloads: self.payloads.clone(),
+            resistances: self.resistances.clone(),
+            gravity_in_root_m_s2: self.clock.gravity_in_world,
+        }
     }
 
     /// This scenario as a case of another one, whose values its controllers know.

@@ -11,8 +11,6 @@ use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::run_setup::RunSetup;
-
 /// A case, with what its controllers know: the scenario as it is written.
 #[derive(Debug, Clone)]
 pub struct UncertainCase {
@@ -32,23 +30,9 @@ pub struct KnownValues {
     /// The robot of the files.
     pub description: RobotDescription,
     pub(super) overrides: Vec<String>,
-    payloads: Vec<RunPayload>,
-    resistances: Vec<JointResistance>,
-    gravity_in_root_m_s2: Vector3<f64>,
-}
-
-impl KnownValues {
-    /// The values of a scenario as it is written.
-    pub fn of(nominal: &RunSetup) -> Self {
-        Self {
-            scenario: nominal.scenario.clone(),
-            description: nominal.description.clone(),
-            overrides: nominal.overrides.clone(),
-            payloads: nominal.payloads.clone(),
-            resistances: nominal.resistances.clone(),
-            gravity_in_root_m_s2: nominal.clock.gravity_in_world,
-        }
-    }
+    pub(super) payloads: Vec<RunPayload>,
+    pub(super) resistances: Vec<JointResistance>,
+    pub(super) gravity_in_root_m_s2: Vector3<f64>,
 }
 
 /// A value of a case.

@@ -1,12 +1,12 @@
 //! `[uncertainty]`: what of it can be checked without drawing a case.
 
 use congruent_input::{Diagnostic, Diagnostics};
-use congruent_scenario::{CaseSampling, Check, Expectation, FilePlace, Scenario};
+use congruent_scenario::{Check, Expectation, FilePlace, Scenario, least_cases};
 
 use crate::codes;
 
 /// Most cases of a scenario. Kind: choice; a sweep keeps rows on disk and can be cut, a run cannot.
-const MOST_CASES: u64 = 1_000_000;
+const MOST_CASES: u64 = 100_000;
 
 /// Refuses an `[uncertainty]` that no run can answer, and a share of cases without one; the result is a warning of too few cases.
 pub(super) fn check_uncertainty(
@@ -30,7 +30,8 @@ pub(super) fn check_uncertainty(
     let place = place.key("uncertainty");
     if !(1..=MOST_CASES).contains(&uncertainty.cases) {
         let error = fault(format!("cases = {} is not from 1 to {MOST_CASES}", uncertainty.cases));
-        found.push(place.key("cases").mark(error.with_help("cases = 300; a sweep has no such limit")));
+        let help = if uncertainty.cases == 0 { "cases = 300" } else { "a sweep has no such limit" };
+        found.push(place.key("cases").mark(error.with_help(help)));
     }
     if let Some(case) = uncertainty.case.filter(|case| *case >= uncertainty.cases) {
         let error =
@@ -43,21 +44,18 @@ pub(super) fn check_uncertainty(
         found.push(place.mark(error.with_help(help)));
     }
     if matches!(scenario.expect, Expectation::Fail { .. }) {
-        let error = fault("[uncertainty] is beside [expect] verdict = \"fail\"".to_owned());
+        let error = fault("[uncertainty] cannot be combined with [expect] verdict = \"fail\"".to_owned());
         let help = "a scenario that must fail is one run: remove one of the two";
         found.push(place.mark(error.with_help(help)));
     }
-    if uncertainty.sampling == CaseSampling::Grid && checks().any(|(_, check)| check.passing().is_some()) {
-        let error = fault("a grid is no sample of the cases, so it shows no share of them".to_owned());
+    let why =
+        uncertainty.sampling.no_sample().filter(|_| checks().any(|(_, check)| check.passing().is_some()));
+    if let Some(why) = why {
+        let error = fault(why.to_owned());
         let help = "sampling = \"random\", or no `passing`";
         found.push(place.key("sampling").mark(error.with_help(help)));
     }
     few
-}
-
-/// The number of cases that show a share if none fails.
-fn least_cases(passing: f64, confidence: f64) -> f64 {
-    (libm::log(1.0 - confidence) / libm::log(passing)).ceil()
 }
 
 /// Warns of a number of cases that cannot show what a check asks for, even if none fails.
@@ -76,17 +74,4 @@ fn too_few_cases(scenario: &Scenario, place: FilePlace<'_>) -> Option<Diagnostic
         let warning = Diagnostic::warning(codes::scenario::FEW_CASES, message);
         place.key("uncertainty").key("cases").mark(warning.with_help(format!("cases = {least}, at least")))
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::least_cases;
-
-    #[test]
-    fn cases_that_show_a_share_if_none_fails() {
-        // 0.99^299 is the first power below 0.05, 0.9^29 that of 0.9.
-        assert!(0.99_f64.powi(299) <= 0.05 && 0.99_f64.powi(298) > 0.05);
-        assert!((least_cases(0.99, 0.95) - 299.0).abs() < 0.5);
-        assert!((least_cases(0.9, 0.95) - 29.0).abs() < 0.5);
-    }
 }

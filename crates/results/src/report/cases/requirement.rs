@@ -1,5 +1,6 @@
 //! Whether a share of all possible cases passes, from those that ran: with an interval, and "not enough cases" as an answer.
 
+use congruent_scenario::least_cases;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -152,8 +153,7 @@ fn at_most(most: u64, count: u64, probability: f64) -> f64 {
 fn needed(requirement: PassingShare, passed: u64, counted: u64) -> Option<u64> {
     let PassingShare { passing, confidence } = requirement;
     if counted == 0 || passed == counted {
-        // Without a failure the bound is the root of the remaining probability.
-        return Some((libm::log(1.0 - confidence) / libm::log(passing)).ceil() as u64);
+        return Some(least_cases(passing, confidence) as u64);
     }
     let failing = (counted - passed) as f64 / counted as f64;
     let answers = |cases: u64| {

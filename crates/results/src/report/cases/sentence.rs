@@ -10,6 +10,7 @@ use congruent_monitors::verdict::{Bound, Measure, Verdict};
 use congruent_scenario::CaseSampling;
 
 use super::{
+    key_importance::KeyImportance,
     requirement::{RequirementResult, RequirementVerdict},
     uncertainty_report::{CheckInCases, QuantityInCases, UncertaintyReport},
 };
@@ -84,9 +85,31 @@ pub fn unfinished_words(cases: &UncertaintyReport) -> Vec<String> {
 
 /// The lines of a check in all cases: in how many it passes, then its quantities.
 pub fn case_lines(cases: &UncertaintyReport, check: &CheckInCases) -> Vec<String> {
-    let words = |of: &QuantityInCases| QuantityWords::new(of, check.requirement.passing).to_string();
-    let quantities = check.quantities.iter().map(words);
-    std::iter::once(passes_in(cases, check)).chain(quantities).collect()
+    // What passes in every case, as it must, needs no cause.
+    let is_in_question =
+        check.requirement.passing < 1.0 || check.requirement.verdict != RequirementVerdict::Met;
+    let words = |of: &QuantityInCases| {
+        let words = QuantityWords::new(of, check.requirement.passing).to_string();
+        std::iter::once(words).chain(decided_by(&of.deciding).filter(|_| is_in_question))
+    };
+    let mut first = passes_in(cases, check);
+    if check.is_default {
+        first += " (default)";
+    }
+    std::iter::once(first).chain(check.quantities.iter().flat_map(words)).collect()
+}
+
+/// Which varied values decide a quantity: `variance: 62 % from joints.friction (more makes it larger), 20 % from payload.tool.mass_kg`.
+/// `None` if none alone does.
+pub fn decided_by(deciding: &[KeyImportance]) -> Option<String> {
+    /// The report has more of them.
+    const LISTED: usize = 3;
+    let words = |key: &KeyImportance| {
+        let direction = key.direction().map_or_else(String::new, |direction| format!(" ({direction})"));
+        format!("{} from {}{direction}", key.percent(), key.key)
+    };
+    let listed: Vec<String> = deciding.iter().take(LISTED).map(words).collect();
+    (!listed.is_empty()).then(|| format!("variance: {}", listed.join(", ")))
 }
 
 /// `passes in 297 of 300 cases; in at least 97.43 % of all cases (confidence 95 %), required 95 %`.
@@ -128,7 +151,7 @@ fn share_known(sampling: CaseSampling, requirement: &RequirementResult) -> Strin
 pub struct QuantityWords {
     /// Which quantity: `distance`.
     pub what: String,
-    /// What the required share of all possible cases keeps: `at least 23.2 mm in 99 %`; `None` if that is not known, or not asked for.
+    /// What the required share of all possible cases keeps: `at least 23.2 mm in 99 %`; `None` if that is not known, or not required.
     pub kept: Option<String>,
     /// The worst value and its case: `23.2 mm (case 229)`.
     pub worst: String,

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     case_checks::{CaseChecks, CheckOfCase, ValueOfCase},
+    key_importance::KeyImportance,
     requirement::{PassingShare, RequirementResult, RequirementVerdict, worst_left_out},
 };
 
@@ -111,6 +112,21 @@ pub struct QuantityInCases {
     /// The value that the required share of all possible cases keeps, with the confidence; `null` if the cases are too few, or if every case
     /// must pass.
     pub quantile_bound: Option<f64>,
+    /// How the values are distributed; left out if they are all the same, or one is infinite.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub histogram: Option<CaseHistogram>,
+    /// The varied keys of which one alone decides a part of the variance, the one that decides most first; none for fewer than 40 cases.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub deciding: Vec<KeyImportance>,
+}
+
+/// Number of cases in equal parts of the range of their values.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CaseHistogram {
+    /// The least and the largest value.
+    pub range: [f64; 2],
+    /// Number of cases in each part, from the least value on.
+    pub counts: Vec<u64>,
 }
 
 impl UncertaintyReport {
@@ -311,7 +327,35 @@ fn in_cases(kind: &ValueOfCase, worst_first: &[(u64, f64)], share: PassingShare)
         worst_case,
         median: median(known).and_then(finite),
         quantile_bound: quantile.and_then(|of| finite(of.1)),
+        histogram: CaseHistogram::new(known.iter().map(|of| of.1)),
+        deciding: Vec::new(),
     })
+}
+
+impl CaseHistogram {
+    /// Number of parts. Kind: choice; as many as are seen in a small picture.
+    const PARTS: usize = 24;
+
+    fn new(values: impl Iterator<Item = f64> + Clone) -> Option<Self> {
+        let ends = |[least, most]: [f64; 2], value: f64| [least.min(value), most.max(value)];
+        let range = values.clone().fold([f64::INFINITY, f64::NEG_INFINITY], ends);
+        let width = range[1] - range[0];
+        if !width.is_finite() || width <= ROUNDING * range[0].abs().max(range[1].abs()) {
+            return None;
+        }
+        let mut counts = vec![0; Self::PARTS];
+        for value in values {
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                clippy::cast_precision_loss,
+                reason = "from 0 to the number of parts"
+            )]
+            let part = ((value - range[0]) / width * Self::PARTS as f64) as usize;
+            counts[part.min(Self::PARTS - 1)] += 1;
+        }
+        Some(Self { range, counts })
+    }
 }
 
 /// The median of sorted values: of an even number the mean of the two in the middle.
