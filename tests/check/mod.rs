@@ -24,6 +24,7 @@ mod published_tables;
 mod ranges_of_variables;
 mod revisions;
 mod second_source;
+mod set_values;
 mod stated;
 mod suggestions;
 mod unranged_slides;

@@ -80,8 +80,8 @@ fn without_tolerances_the_refusal_says_what_to_write() {
     for (arguments, mentions) in [
         (&["robots/ur5e"][..], ["has no tolerances", "--a 0.05mm", "[tolerances]"]),
         (&["robots/ur5e/ur5e.urdf"], ["has no tolerances", "--xyz 0.05mm", "xyz_mm = 0.05"]),
-        (&["robots/ur5e/ur5e.urdf", "--a=1mm"], ["nothing varies", "--xyz", "--rpy"]),
-        (&["robots/ur5e", "--xyz=1mm"], ["nothing varies", "--a 0.05mm", "--alpha"]),
+        (&["robots/ur5e/ur5e.urdf", "--a=1mm"], ["tolerance of a has no effect", "--xyz", "--rpy"]),
+        (&["robots/ur5e", "--xyz=1mm"], ["tolerance of xyz has no effect", "--a 0.05mm", "--alpha"]),
         (&["robots/ur5e", "--theta=1"], ["needs a unit", "1deg", "--theta"]),
         (&["robots/ur5e", "--a=1mm", "--digits"], ["cannot be used with", "--digits", "--a"]),
         (

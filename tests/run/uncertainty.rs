@@ -147,7 +147,7 @@ fn a_quantity_that_fails_in_every_case_is_shown() {
     assert!(answer.stdout.contains("margin 10 mm in every case, required margin >= 20 mm"), "{answer:?}");
 }
 
-/// A wall near an arm that stands still, moved so that its overlap refuses some cases.
+/// A wall near an arm at rest, moved so that its overlap refuses some cases.
 const NEAR_WALL: &str = "[simulation]\nduration_s = 0.002\n[start]\njoints_deg = { joint_1 = 0.0, joint_2 = 0.0 }\n[[obstacle]]\nname = \"wall\"\n\
     box_m = [0.1, 0.4, 0.4]\nxyz_m = [1.086, 0.0, 0.0]\n[uncertainty]\ncases = 60\n[[uncertainty.vary]]\nkey = \"obstacle.wall.xyz_m.1\"\n\
     plus_minus = 0.0115\n[[check]]\nkind = \"clearance\"\nminimum_m = 0.001\npairs = [[\"link_2\", \"wall\"]]\npassing = 0.6\n";

@@ -7,8 +7,8 @@ use std::{
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use congruent::{
-    description::{Followers, RobotDescription, codes::urdf::MASSLESS, load_robot_with},
-    input::{Capability, Diagnostic, FileAccess, RosPackages},
+    description::{Followers, RobotDescription, codes::urdf::MASSLESS, load_robot_set, load_robot_with},
+    input::{Capability, Diagnostic, FileAccess, Findings, Override, RosPackages},
 };
 use schemars::JsonSchema;
 use serde::de::{DeserializeOwned, IntoDeserializer, value::Error};
@@ -44,6 +44,34 @@ pub(crate) struct RobotArgument {
     access: AccessArguments,
 }
 
+/// Values in place of those of a robot's files.
+#[derive(Debug, Clone, clap::Args)]
+pub(crate) struct SetArguments {
+    /// Replace a value of the robot: a key of robot.toml, such as `dh.row.elbow_joint.d_m=0.4`, or a value of a link or joint,
+    /// whichever file has it, such as `link.forearm_link.mass_kg=3`. The files stay as they are.
+    ///
+    /// An entry of a list has its number, from 1, or its joint or name. VALUE is TOML. May be given several times.
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Override::of_argument)]
+    overrides: Vec<Override>,
+}
+
+impl SetArguments {
+    /// Loads a robot with these values.
+    pub(crate) fn load(&self, path: &Path, access: &FileAccess) -> Result<RobotDescription, Findings> {
+        load_robot_set(path, &self.of_robot(), access)
+    }
+
+    /// The values, `KEY=VALUE`.
+    pub(crate) fn written(&self) -> Vec<String> {
+        self.of_robot().iter().map(ToString::to_string).collect()
+    }
+
+    /// A key that begins as it does in a scenario is the same one.
+    fn of_robot(&self) -> Vec<Override> {
+        self.overrides.iter().map(|set| set.inside("robot").unwrap_or_else(|| set.clone())).collect()
+    }
+}
+
 /// Which files may be opened that other files name.
 #[derive(Debug, Clone, clap::Args)]
 pub(crate) struct AccessArguments {
@@ -74,28 +102,46 @@ impl AccessArguments {
     }
 }
 
-impl RobotArgument {
+/// A robot that arguments name.
+pub(crate) trait RobotArguments: clap::Args + std::fmt::Debug {
     /// Loads the robot and prints nothing.
-    fn read(&self) -> Result<RobotDescription, Failure> {
-        Ok(load_robot_with(&self.robot, &self.access()?)?)
-    }
-
-    /// Which files it may name.
-    pub(crate) fn access(&self) -> Result<FileAccess, Diagnostic> {
-        self.access.access()
-    }
+    fn read(&self) -> Result<RobotDescription, Failure>;
 
     /// Loads it for a use, which is refused before anything is printed, and prints its warnings.
-    pub(crate) fn load_for(
-        &self,
-        needed: Capability,
-        printer: &Printer,
-    ) -> Result<RobotDescription, Failure> {
+    fn load_for(&self, needed: Capability, printer: &Printer) -> Result<RobotDescription, Failure> {
         let description = self.read()?;
         description.check_capability(needed)?;
         printer.warnings(None, &description.warnings);
         printer.detail(|| read_from(&description));
         Ok(description)
+    }
+}
+
+impl RobotArgument {
+    /// Which files it may name.
+    pub(crate) fn access(&self) -> Result<FileAccess, Diagnostic> {
+        self.access.access()
+    }
+}
+
+impl RobotArguments for RobotArgument {
+    fn read(&self) -> Result<RobotDescription, Failure> {
+        Ok(load_robot_with(&self.robot, &self.access()?)?)
+    }
+}
+
+/// A robot with values in place of those of its files.
+#[derive(Debug, clap::Args)]
+pub(crate) struct SetRobotArgument {
+    #[command(flatten)]
+    robot: RobotArgument,
+    #[command(flatten)]
+    set: SetArguments,
+}
+
+impl RobotArguments for SetRobotArgument {
+    fn read(&self) -> Result<RobotDescription, Failure> {
+        Ok(self.set.load(&self.robot.robot, &self.robot.access()?)?)
     }
 }
 
@@ -171,14 +217,17 @@ impl ChainArguments {
 
 /// A robot with a chain.
 #[derive(Debug, clap::Args)]
-pub(crate) struct ArmArguments {
+pub(crate) struct ArmArguments<R: RobotArguments = RobotArgument> {
     #[command(flatten)]
-    pub(crate) robot: RobotArgument,
+    pub(crate) robot: R,
     #[command(flatten)]
     pub(crate) chain: ChainArguments,
 }
 
-impl ArmArguments {
+/// The same with values in place of those of its files.
+pub(crate) type SetArmArguments = ArmArguments<SetRobotArgument>;
+
+impl<R: RobotArguments> ArmArguments<R> {
     /// Loads the robot along its chain and prints its warnings.
     pub(crate) fn load(&self, printer: &Printer) -> Result<RobotDescription, Failure> {
         self.load_for(Capability::Kinematics, printer)

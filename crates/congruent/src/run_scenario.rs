@@ -1,8 +1,8 @@
 //! A scenario from its setup to its results on disk, with the causes of what failed and the cases of `[uncertainty]`.
 
-use std::sync::atomic::AtomicBool;
+use std::{path::Path, sync::atomic::AtomicBool};
 
-use congruent_input::{FileAccess, Findings};
+use congruent_input::{FileAccess, Findings, Override};
 use congruent_results::{ExecuteError, Options, execute_with, files::OutputFolder, report::RunReport};
 use congruent_sweep::{CaseThreads, UncertainCases, plan::SweepPlan, run::CaseRunner};
 use congruent_twin::{Run, RunSetup};
@@ -40,6 +40,15 @@ pub enum RunStage {
 }
 
 impl PreparedScenario {
+    /// Reads a scenario file, with values in place of those of the file.
+    ///
+    /// # Errors
+    /// Every finding, if one is an error; and those of [`PreparedScenario::new`].
+    pub fn load(path: &Path, overrides: &[Override], access: &FileAccess) -> Result<Self, Findings> {
+        let setup = RunSetup::load_with(path, overrides, access).and_then(RunSetup::for_simulation)?;
+        Self::new(setup, access)
+    }
+
     /// A scenario whose files are those of `access`.
     ///
     /// # Errors

@@ -4,7 +4,7 @@ use congruent_calibration::estimation::{
     CorrectionEntry, CorrectionParameter, ParameterUnit, base_pose, dh_entries, tool_pose, zero_offsets,
 };
 use congruent_description::{
-    DeclaredTolerances, ErrorDistribution, FrameTolerances, RobotDescription, RobotQ,
+    DeclaredTolerances, ErrorDistribution, FrameTolerances, ParameterTolerances, RobotDescription, RobotQ,
 };
 use congruent_input::Diagnostic;
 use congruent_kinematics::{DhChain, KinematicsError, Pose, ScrewChain, Twist, UrdfTree};
@@ -121,7 +121,7 @@ pub(crate) fn refused(error: &KinematicsError) -> Diagnostic {
 /// The chain with the errors that declared tolerances allow.
 ///
 /// # Errors
-/// No joint moves, a row is of no joint of the chain, or no tolerance is of a parameter of this robot.
+/// No joint moves, a row is of no joint of the chain or of one that has a row, or a tolerance is of no parameter of this robot.
 pub fn declared(
     description: &RobotDescription,
     tolerances: &DeclaredTolerances,
@@ -133,6 +133,17 @@ pub fn declared(
         let known = congruent_input::known_names(&row.joint, "joints", names.iter().copied());
         return Err(Diagnostic::error(codes::tolerances::JOINT, message).with_help(known));
     }
+    let repeated = tolerances
+        .rows
+        .iter()
+        .enumerate()
+        .find(|(at, row)| tolerances.rows[..*at].iter().any(|before| before.joint == row.joint));
+    if let Some((_, row)) = repeated {
+        let message = format!("[[tolerances.row]]: joint \"{}\" has two rows", row.joint);
+        return Err(Diagnostic::error(codes::tolerances::JOINT, message)
+            .with_help("write its tolerances into one row"));
+    }
+    without_effect(description, tolerances)?;
     let mut errors = frame_errors(base_pose(), &tolerances.base);
     // The zero of a joint comes before the rest of its row: its axis is the joint's, so that it commutes with it alone.
     errors.extend(zero_offsets(&model.chain, &names).into_iter().zip(&names).map(|(zero, name)| {
@@ -169,6 +180,26 @@ pub fn no_tolerances(description: &RobotDescription) -> Diagnostic {
         "give them as {option}, or write a section [tolerances] in robot.toml with {keys}, one in each line; --calibration FILE takes \
          them from a calibration, --digits from the digits of the file"
     ))
+}
+
+/// Refuses a tolerance of a row of a table for a robot without one, and of the origin of a joint for a robot with one.
+fn without_effect(description: &RobotDescription, tolerances: &DeclaredTolerances) -> Result<(), Diagnostic> {
+    let given = std::iter::once(&tolerances.general).chain(tolerances.rows.iter().map(|row| &row.tolerances));
+    let has_table = description.dh.is_some();
+    let keys = |of: &ParameterTolerances| -> Vec<&'static str> {
+        let of_rows = [("a", of.a_m), ("d", of.d_m), ("alpha", of.alpha_rad), ("theta", of.theta_rad)];
+        let of_origins = [("xyz", of.xyz_m), ("rpy", of.rpy_rad)];
+        let wrong: &[(&str, Option<f64>)] = if has_table { &of_origins } else { &of_rows };
+        wrong.iter().filter(|(_, value)| value.is_some()).map(|(key, _)| *key).collect()
+    };
+    let Some(key) = given.flat_map(keys).next() else { return Ok(()) };
+    let (what, help) = if has_table {
+        ("a table, whose rows have a, d, alpha and theta", "for example --a 0.05mm --alpha 0.02deg")
+    } else {
+        ("no table, so its joints have an origin", "for example --xyz 0.05mm --rpy 0.02deg")
+    };
+    let message = format!("a tolerance of {key} has no effect: robot \"{}\" has {what}", description.name);
+    Err(Diagnostic::error(codes::tolerances::NONE, message).with_help(help))
 }
 
 /// The refusal of tolerances that are of no parameter of the robot.

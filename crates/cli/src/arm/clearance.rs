@@ -11,7 +11,7 @@ use crate::{
     codes,
     configurations::ConfigurationArguments,
     failure::{FAILED, Failure, NOTHING},
-    input::RobotArgument,
+    input::{RobotArguments, SetRobotArgument},
     quantity::length_with_unit,
     terminal::print::{Printer, text_options},
 };
@@ -23,7 +23,7 @@ use crate::{
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
-    robot: RobotArgument,
+    robot: SetRobotArgument,
     #[command(flatten)]
     configurations: ConfigurationArguments,
     /// Give overlaps as negative depths instead of 0.

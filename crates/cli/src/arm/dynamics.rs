@@ -12,7 +12,7 @@ use super::base_parameters::base_parameters;
 use crate::{
     configurations::ConfigurationArguments,
     failure::Failure,
-    input::{ArmArguments, FollowerArgument, named},
+    input::{FollowerArgument, SetArmArguments, named},
     quantity::{Dimension, QuantityArgument, three_lengths},
     terminal::print::Printer,
 };
@@ -24,7 +24,7 @@ use crate::{
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
-    arm: ArmArguments,
+    arm: SetArmArguments,
     /// The source of torques and accelerations.
     #[arg(long, default_value = "model", value_parser = named::<DynamicsSource>())]
     source: DynamicsSource,

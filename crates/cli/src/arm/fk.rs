@@ -5,7 +5,7 @@ use congruent::{analysis::forward::Source, input::Capability, text::forward_text
 use crate::{
     configurations::ConfigurationArguments,
     failure::Failure,
-    input::{ArmArguments, named},
+    input::{SetArmArguments, named},
     terminal::print::{Printer, text_options},
 };
 
@@ -18,7 +18,7 @@ use crate::{
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
-    arm: ArmArguments,
+    arm: SetArmArguments,
     /// The source of the poses.
     #[arg(long, default_value = "urdf", value_parser = named::<Source>())]
     source: Source,

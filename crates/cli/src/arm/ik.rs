@@ -21,7 +21,7 @@ use congruent::{
 use crate::{
     codes,
     failure::{FAILED, Failure, NOTHING},
-    input::{ArmArguments, named, seed},
+    input::{SetArmArguments, named, seed},
     quantity::{three_angles, three_lengths},
     terminal::print::{Printer, text_options},
     tolerance::ToleranceArgument,
@@ -68,7 +68,7 @@ pub(crate) struct Arguments {
     iterations: usize,
     // Last: the help lists the options in this order, and most calls need no chain.
     #[command(flatten)]
-    arm: ArmArguments,
+    arm: SetArmArguments,
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {

@@ -11,7 +11,7 @@ use congruent::{
 use crate::{
     configurations::ConfigurationArguments,
     failure::Failure,
-    input::{ArmArguments, FollowerArgument, named},
+    input::{FollowerArgument, SetArmArguments, named},
     terminal::print::{Printer, text_options},
 };
 
@@ -19,7 +19,7 @@ use crate::{
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
-    arm: ArmArguments,
+    arm: SetArmArguments,
     /// The link that moves, or `tcp` for the declared tool centre point (`declared_tcp` if a link is called `tcp`); the model's tip if it is left out.
     #[arg(long, value_name = "NAME")]
     link: Option<String>,

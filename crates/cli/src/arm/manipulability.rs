@@ -8,7 +8,7 @@ use congruent::{
 use crate::{
     configurations::ConfigurationArguments,
     failure::Failure,
-    input::{ArmArguments, files_of},
+    input::{SetArmArguments, files_of},
     output::plot::PlotArgument,
     quantity::positive_length,
     terminal::print::{Printer, text_options},
@@ -22,7 +22,7 @@ use crate::{
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
-    arm: ArmArguments,
+    arm: SetArmArguments,
     #[command(flatten)]
     configurations: ConfigurationArguments,
     /// The length that counts as one radian, of the tool and of sliding joints; by default the typical distance

@@ -10,7 +10,7 @@ use congruent::{
 use crate::{
     codes,
     failure::Failure,
-    input::{ArmArguments, files_of, seed},
+    input::{SetArmArguments, files_of, seed},
     output::plot::PlotArgument,
     terminal::{
         print::{Printer, text_options},
@@ -24,7 +24,7 @@ use crate::{
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
-    arm: ArmArguments,
+    arm: SetArmArguments,
     /// Number of random configurations.
     #[arg(long, default_value_t = 2000, value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
     samples: u32,

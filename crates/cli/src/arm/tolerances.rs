@@ -17,7 +17,7 @@ use congruent::{
 use crate::{
     configurations::ConfigurationArguments,
     failure::Failure,
-    input::{ArmArguments, files_of, seed},
+    input::{SetArmArguments, files_of, seed},
     output::plot::PlotArgument,
     quantity::{angle_with_unit, length_with_unit},
     terminal::{
@@ -35,7 +35,7 @@ use crate::{
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
-    arm: ArmArguments,
+    arm: SetArmArguments,
     #[command(flatten)]
     given: GivenTolerances,
     /// The covariance of a calibration instead: what `calibrate --format json` has printed.
@@ -71,33 +71,34 @@ const CALIBRATION_BYTES: u64 = 64 << 20;
 #[group(multiple = true)]
 struct GivenTolerances {
     /// Tolerance of each link length a of the table: 0.05mm.
-    #[arg(long, value_name = "LENGTH", value_parser = length_with_unit)]
+    #[arg(long, value_name = "LENGTH", value_parser = length_with_unit, allow_hyphen_values = true)]
     a: Option<f64>,
     /// Tolerance of each link offset d.
-    #[arg(long, value_name = "LENGTH", value_parser = length_with_unit)]
+    #[arg(long, value_name = "LENGTH", value_parser = length_with_unit, allow_hyphen_values = true)]
     d: Option<f64>,
     /// Tolerance of each link twist alpha: 0.02deg.
-    #[arg(long, value_name = "ANGLE", value_parser = angle_with_unit)]
+    #[arg(long, value_name = "ANGLE", value_parser = angle_with_unit, allow_hyphen_values = true)]
     alpha: Option<f64>,
     /// Tolerance of each theta.
-    #[arg(long, value_name = "ANGLE", value_parser = angle_with_unit)]
+    #[arg(long, value_name = "ANGLE", value_parser = angle_with_unit, allow_hyphen_values = true)]
     theta: Option<f64>,
     /// Tolerance of the zero of each joint, encoder and backlash: 0.01deg; 0.02mm of joints that slide.
-    #[arg(long, value_name = "LENGTH,ANGLE")]
+    #[arg(long, value_name = "LENGTH,ANGLE", allow_hyphen_values = true)]
     zero: Option<ToleranceArgument>,
     /// Tolerance of each coordinate of a joint's origin, of a robot without a table.
-    #[arg(long, value_name = "LENGTH", value_parser = length_with_unit)]
+    #[arg(long, value_name = "LENGTH", value_parser = length_with_unit, allow_hyphen_values = true)]
     xyz: Option<f64>,
     /// Tolerance of each of three turns about the axes of a joint's frame, of a robot without a table.
-    #[arg(long, value_name = "ANGLE", value_parser = angle_with_unit)]
+    #[arg(long, value_name = "ANGLE", value_parser = angle_with_unit, allow_hyphen_values = true)]
     rpy: Option<f64>,
     /// Tolerance of the base: of each coordinate, and of each turn about its axes.
-    #[arg(long, value_name = "LENGTH,ANGLE")]
+    #[arg(long, value_name = "LENGTH,ANGLE", allow_hyphen_values = true)]
     base_pose: Option<ToleranceArgument>,
     /// Tolerance of the tool centre point in the last link, likewise.
-    #[arg(long, value_name = "LENGTH,ANGLE")]
+    #[arg(long, value_name = "LENGTH,ANGLE", allow_hyphen_values = true)]
     tcp: Option<ToleranceArgument>,
-    /// The errors are normal, and a tolerance is this number of standard deviations; without it they are uniform.
+    /// The errors are normal, and a tolerance is this number of standard deviations; without it they are uniform, or as
+    /// [tolerances] says.
     #[arg(long, value_name = "SIGMAS", value_parser = sigmas)]
     normal: Option<f64>,
 }
@@ -108,6 +109,10 @@ fn sigmas(text: &str) -> Result<f64, String> {
 }
 
 impl GivenTolerances {
+    fn distribution(&self) -> Option<ErrorDistribution> {
+        self.normal.map(|sigmas| ErrorDistribution::Normal { sigmas })
+    }
+
     /// None if no tolerance is given.
     fn declared(&self) -> Option<DeclaredTolerances> {
         let parts = |of: Option<ToleranceArgument>| of.map_or((None, None), ToleranceArgument::parts);
@@ -119,8 +124,7 @@ impl GivenTolerances {
         let Self { a: a_m, d: d_m, alpha: alpha_rad, theta: theta_rad, xyz: xyz_m, rpy: rpy_rad, .. } = *self;
         let general =
             ParameterTolerances { a_m, d_m, alpha_rad, theta_rad, zero_rad, zero_m, xyz_m, rpy_rad };
-        let distribution =
-            self.normal.map_or(ErrorDistribution::Uniform, |sigmas| ErrorDistribution::Normal { sigmas });
+        let distribution = self.distribution().unwrap_or_default();
         let (base, tcp) = (frame(self.base_pose), frame(self.tcp));
         let found = DeclaredTolerances { general, rows: Vec::new(), base, tcp, distribution };
         let is_empty = DeclaredTolerances { distribution, ..DeclaredTolerances::default() } == found;
@@ -144,7 +148,12 @@ impl Arguments {
         }
         match (&given, &description.tolerances) {
             (Some(given), _) => Ok((ToleranceSource::Options, declared(description, given)?)),
-            (None, Some(file)) => Ok((ToleranceSource::RobotFile, declared(description, file)?)),
+            (None, Some(file)) => {
+                // The one option that says nothing by itself: it replaces the kind of the section.
+                let distribution = self.given.distribution().unwrap_or(file.distribution);
+                let file = DeclaredTolerances { distribution, ..file.clone() };
+                Ok((ToleranceSource::RobotFile, declared(description, &file)?))
+            }
             (None, None) => Err(no_tolerances(description).into()),
         }
     }

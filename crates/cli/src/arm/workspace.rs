@@ -10,7 +10,7 @@ use congruent::{
 use crate::{
     codes,
     failure::Failure,
-    input::{ArmArguments, files_of, seed},
+    input::{SetArmArguments, files_of, seed},
     output::plot::PlotArgument,
     terminal::{
         print::{Printer, text_options},
@@ -25,7 +25,7 @@ use crate::{
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
-    arm: ArmArguments,
+    arm: SetArmArguments,
     /// Number of random configurations; 20,000 or one in 20 points are tested for the size.
     #[arg(long, default_value_t = 400_000, value_parser = clap::value_parser!(u32).range(1..=50_000_000))]
     samples: u32,

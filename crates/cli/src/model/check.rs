@@ -8,7 +8,7 @@ use congruent::{
     analysis::plot::errors,
     cannot_be_checked, check_suite, checked_robot,
     configurations::read_configurations,
-    description::{RobotDescription, RobotQList, Tolerance, load_robot_with, robots_of_changed},
+    description::{RobotDescription, RobotQList, Tolerance, robots_of_changed},
     input::{Diagnostic, Finding, Findings},
     page::{CheckEntry, check_page},
     results::report::TestSuite,
@@ -28,7 +28,7 @@ use crate::{
     ci::CiArguments,
     codes,
     failure::Failure,
-    input::{AccessArguments, ChainArguments, files_of, seed},
+    input::{AccessArguments, ChainArguments, SetArguments, files_of, seed},
     invocation,
     output::{file::refuse_same, page::PageArgument, plot::PlotArgument},
     terminal::{
@@ -69,6 +69,8 @@ pub(crate) struct Arguments {
     changed: bool,
     #[command(flatten)]
     measured: MeasuredArguments,
+    #[command(flatten)]
+    set: SetArguments,
     #[command(flatten)]
     chain: ChainArguments,
     /// Seed of the random configurations.
@@ -273,7 +275,7 @@ fn check(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checke
 
 /// The check against the other description at this place of the list, if there is one.
 fn compared(path: &Path, at: usize, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checked, Failure> {
-    let mut description = arguments.chain.of(load_robot_with(path, &arguments.access.access()?)?)?;
+    let mut description = arguments.chain.of(arguments.set.load(path, &arguments.access.access()?)?)?;
     let mut configurations = RobotQList::new(description.robot.dof());
     // About the options, and not about the descriptions that lint examines.
     let mut of_options = Vec::new();
@@ -323,6 +325,7 @@ fn compared(path: &Path, at: usize, arguments: &Arguments, batch: &Batch<'_>) ->
     report.geometry.warnings.extend(of_options.iter().map(Finding::from));
     report.lint.is_strict = arguments.strict;
     report.geometry.requested_tolerance = arguments.tolerance.map(ToleranceArgument::requested);
+    report.geometry.replaced_values = arguments.set.written();
     report.geometry.replaced_tolerance = arguments.tolerance.and(declared);
     Ok(Checked {
         report,

@@ -15,7 +15,7 @@ pub(super) struct FixArgument {
     /// Write the robot file with the cause corrected beside it (robot.toml: robot.fixed.toml) and check that file: the exit
     /// code is that of the second check. Nothing is written if no cause is in the robot file. An existing file is replaced
     /// only if it begins with the line that --fix writes first.
-    #[arg(long)]
+    #[arg(long, conflicts_with = "overrides")]
     pub(super) fix: bool,
 }
 

@@ -35,7 +35,7 @@ pub(super) struct MeasuredArguments {
     #[arg(
         long,
         value_name = "FILE",
-        conflicts_with_all = ["against", "changed", "configurations", "table", "plot", "fix", "strict", "basics", "html"]
+        conflicts_with_all = ["against", "changed", "configurations", "table", "plot", "fix", "overrides", "strict", "basics", "html"]
     )]
     measurements: Option<PathBuf>,
     /// With --measurements: fit the pose of the base, of the tool, or single corrections of them such as base.yaw before

@@ -14,7 +14,7 @@ use congruent::{
 
 use crate::{
     failure::Failure,
-    input::{RobotArgument, allowing_inputs, files_of, needs_to_be_allowed},
+    input::{RobotArgument, RobotArguments, allowing_inputs, files_of, needs_to_be_allowed},
     output::file::{NewFile, folder_of},
     terminal::{print::Printer, progress::waiting},
 };

@@ -14,7 +14,7 @@ use congruent::{
     recording::RerunFormat,
     results::{Options, RecordingFormat},
     text::joint_sweep_text,
-    twin::{RunError, RunSetup},
+    twin::RunError,
 };
 
 use super::viewer::Viewer;
@@ -113,9 +113,7 @@ fn refused(error: SweepError) -> Failure {
 }
 
 fn scenario(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
-    let access = arguments.access.access()?;
-    let setup = RunSetup::load_with(&arguments.input, &[], &access).and_then(RunSetup::for_simulation)?;
-    let scenario = PreparedScenario::new(setup, &access)?;
+    let scenario = PreparedScenario::load(&arguments.input, &[], &arguments.access.access()?)?;
     printer.warnings(None, &scenario.setup.description.warnings);
     printer.warnings(None, &scenario.setup.warnings);
     let options =

@@ -2,11 +2,7 @@
 
 use std::path::PathBuf;
 
-use congruent::{
-    input::{Diagnostic, Override},
-    page::PageFormat,
-    results::RecordingFormat,
-};
+use congruent::{input::Override, page::PageFormat, results::RecordingFormat};
 
 use crate::{ci::CiArguments, failure::Failure, input::AccessArguments, terminal::print::Printer};
 
@@ -39,7 +35,7 @@ pub(crate) struct Arguments {
     ///
     /// KEY is the keys of the file joined by dots; an entry of a list has its number, from 1. VALUE is TOML
     /// or a word. May be given several times.
-    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = parse_override)]
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Override::of_argument)]
     overrides: Vec<Override>,
     /// Use this seed instead of the scenario's; the same as --set seed=N.
     #[arg(long, value_parser = clap::value_parser!(u64).range(..=i64::MAX.unsigned_abs()))]
@@ -80,12 +76,6 @@ pub(crate) struct RecordingArguments {
     #[cfg(feature = "recording")]
     #[arg(long, conflicts_with = "no_recording")]
     view: bool,
-}
-
-fn parse_override(text: &str) -> Result<Override, String> {
-    text.parse().map_err(|error: Diagnostic| {
-        error.help.map_or(error.message.clone(), |help| format!("{}; {help}", error.message))
-    })
 }
 
 impl Arguments {
@@ -151,7 +141,7 @@ pub(super) fn recording_format(
     }
     if arguments.scenarios.len() > 1 {
         let message = format!("--view shows one run, but {} scenarios are given", arguments.scenarios.len());
-        return Err(Diagnostic::error(crate::codes::run::VIEW, message)
+        return Err(congruent::input::Diagnostic::error(crate::codes::run::VIEW, message)
             .with_help("give one scenario")
             .into());
     }

@@ -128,6 +128,16 @@ impl Override {
         (first == outer).then(|| Self { path: rest.to_vec(), ..self.clone() })
     }
 
+    /// An argument of the command line.
+    ///
+    /// # Errors
+    /// What is wrong with it, and how it is written.
+    pub fn of_argument(text: &str) -> Result<Self, String> {
+        text.parse().map_err(|error: Diagnostic| {
+            error.help.map_or(error.message.clone(), |help| format!("{}; {help}", error.message))
+        })
+    }
+
     /// An override of the scenario's seed.
     pub fn seed(seed: u64) -> Self {
         let written = format!("seed={seed}");

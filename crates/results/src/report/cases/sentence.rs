@@ -172,7 +172,7 @@ impl QuantityWords {
             worst: None,
             first_violation: None,
         };
-        // A required margin is that of the check; it stands once, as its limit.
+        // A required margin is that of the check; it is written once, as its limit.
         let required =
             (of.limit < 0.0).then(|| format!("required margin >= {}", quantity(-of.limit, of.unit.symbol())));
         let margin =
