@@ -1,8 +1,10 @@
 //! Errors with the covariance of a calibration: what `congruent calibrate --format json` has printed.
 
+use std::collections::BTreeMap;
+
 use congruent_calibration::estimation::{base_pose, joint_axes, tool_pose, zero_offsets};
 use congruent_description::RobotDescription;
-use congruent_input::{Diagnostic, SourceFile, known_names};
+use congruent_input::{Diagnostic, SourceFile, display::first_of, known_names};
 use nalgebra::DMatrix;
 use serde::Deserialize;
 
@@ -21,6 +23,21 @@ struct PrintedCalibration {
     robot: String,
     parameters: Vec<PrintedCorrection>,
     covariance: Vec<Vec<Option<f64>>>,
+    #[serde(default)]
+    fixed: Vec<PrintedFixed>,
+}
+
+/// A correction that the measurements do not identify.
+#[derive(Debug, Deserialize)]
+struct PrintedFixed {
+    name: String,
+    /// Estimated corrections that have the same effect; none if no measurement shows it.
+    correlated_with: BTreeMap<String, f64>,
+}
+
+/// Whether a correction is of the camera that has measured, and so of no part of the robot.
+fn is_of_camera(name: &str) -> bool {
+    ["camera.", "target."].iter().any(|frame| name.starts_with(frame))
 }
 
 #[derive(Debug, Deserialize)]
@@ -66,6 +83,11 @@ pub fn calibrated(description: &RobotDescription, source: &SourceFile) -> Result
         return Err(refused(message)
             .with_help("measure more configurations, or state the noise: calibrate --noise 0.1mm"));
     };
+    if !is_covariance(&covariance) {
+        let message =
+            format!("the covariance of {path} is none: it is not symmetric, or a variance is negative");
+        return Err(refused(message).with_help(help));
+    }
     let model = NominalModel::new(description)?;
     let names = model.joint_names();
     let mut known = base_pose();
@@ -78,7 +100,7 @@ pub fn calibrated(description: &RobotDescription, source: &SourceFile) -> Result
     // Of each correction its place among the known ones, in whose order the corrections of one slot act, and its column.
     let mut placed: Vec<(usize, usize)> = Vec::new();
     for (column, PrintedCorrection { name }) in printed.parameters.iter().enumerate() {
-        if ["camera.", "target."].iter().any(|frame| name.starts_with(frame)) {
+        if is_of_camera(name) {
             continue;
         }
         let Some(place) = known.iter().position(|correction| correction.name == *name) else {
@@ -92,5 +114,40 @@ pub fn calibrated(description: &RobotDescription, source: &SourceFile) -> Result
     let columns: Vec<usize> = placed.iter().map(|&(_, column)| column).collect();
     let covariance = covariance.select_rows(&columns).select_columns(&columns);
     let corrections = placed.iter().map(|&(place, _)| known[place].clone()).collect();
-    Ok(model.with_spread(corrections, ErrorSpread::of_covariance(&covariance, SIGMAS)))
+    let mut chain = model.with_spread(corrections, ErrorSpread::of_covariance(&covariance, SIGMAS));
+    chain.warnings = not_identified(&printed.fixed, source);
+    Ok(chain)
+}
+
+/// Whether a matrix is symmetric, and no combination of corrections has a negative variance, up to rounding.
+fn is_covariance(of: &DMatrix<f64>) -> bool {
+    /// Relative to the largest variance. Kind: rounding of printed numbers.
+    const ROUNDING: f64 = 1e-9;
+    // In units of the standard deviations: a length has another unit than an angle.
+    let deviation = |at: usize| of[(at, at)].sqrt();
+    let scaled = DMatrix::from_fn(of.nrows(), of.ncols(), |row, column| {
+        let scale = deviation(row) * deviation(column);
+        if scale > 0.0 { of[(row, column)] / scale } else { of[(row, column)] }
+    });
+    let is_symmetric = (&scaled - scaled.transpose()).amax() <= ROUNDING;
+    let smallest = || scaled.clone().symmetric_eigenvalues().min();
+    of.diagonal().iter().all(|variance| *variance >= 0.0) && is_symmetric && smallest() >= -ROUNDING
+}
+
+/// A warning of corrections of which the measurements say nothing.
+fn not_identified(fixed: &[PrintedFixed], source: &SourceFile) -> Vec<Diagnostic> {
+    /// Names that are listed.
+    const LISTED: usize = 6;
+    let unseen = fixed.iter().filter(|of| of.correlated_with.is_empty() && !is_of_camera(&of.name));
+    let names: Vec<&str> = unseen.map(|of| of.name.as_str()).collect();
+    if names.is_empty() {
+        return Vec::new();
+    }
+    let message = format!(
+        "the measurements of {} say nothing of {}, which count as exact",
+        source.path.display(),
+        first_of(&names, LISTED)
+    );
+    let warning = Diagnostic::warning(codes::tolerances::CALIBRATION, message);
+    vec![warning.with_help("measure more configurations, or give their tolerances by [tolerances] instead")]
 }

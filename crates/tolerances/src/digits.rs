@@ -65,7 +65,7 @@ impl DigitErrors {
         }
         let chain = ErrorChain::of_motions(model.chain, model.coordinates, self.motions);
         let spread = ErrorSpread::independent(self.tolerances, ErrorDistribution::Uniform);
-        Ok(ToleratedChain { chain, parameters: self.parameters, spread })
+        Ok(ToleratedChain { chain, parameters: self.parameters, spread, warnings: Vec::new() })
     }
 }
 

@@ -26,6 +26,8 @@ pub struct ToleratedChain {
     pub(crate) chain: ErrorChain,
     pub(crate) parameters: Vec<ToleratedParameter>,
     pub(crate) spread: ErrorSpread,
+    /// What the tolerances leave out.
+    pub warnings: Vec<Diagnostic>,
 }
 
 /// The chain from base to tool: of the table if there is one, otherwise of the URDF.
@@ -110,7 +112,7 @@ impl<'a> NominalModel<'a> {
             |of: &CorrectionParameter| ToleratedParameter { name: of.name.clone(), unit: of.unit() };
         let parameters = corrections.iter().map(parameter).collect();
         let chain = ErrorChain::new(self.chain, self.coordinates, corrections);
-        ToleratedChain { chain, parameters, spread }
+        ToleratedChain { chain, parameters, spread, warnings: Vec::new() }
     }
 }
 

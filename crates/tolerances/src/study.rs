@@ -128,7 +128,7 @@ pub fn tolerance_study(
         halvings: order.halvings,
         at,
         requirement,
-        warnings: description.warnings.iter().map(Finding::from).collect(),
+        warnings: description.warnings.iter().chain(&tolerated.warnings).map(Finding::from).collect(),
     })
 }
 

@@ -167,6 +167,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     inputs.extend(arguments.calibration.clone());
     arguments.plot.is_none_of(&inputs)?;
     let (source, tolerated) = arguments.tolerated(&description)?;
+    printer.warnings(None, &tolerated.warnings);
     let options = StudyOptions {
         source,
         given,

@@ -1,11 +1,12 @@
 //! Files that appear whole or not at all: each is written under a temporary name and renamed.
 
 use std::{
-    collections::BTreeSet,
+    collections::{BTreeSet, hash_map::RandomState},
     fs,
+    hash::{BuildHasher, Hasher},
     io::{self, Write},
     path::{Path, PathBuf},
-    sync::{Mutex, MutexGuard, PoisonError},
+    sync::{LazyLock, Mutex, MutexGuard, PoisonError},
 };
 
 /// Why a result cannot be written.
@@ -46,9 +47,7 @@ pub fn write_whole(path: &Path, contents: &[u8]) -> Result<(), OutputError> {
 /// Writes a new file beside `path` and renames it. The new file is no link that someone has put there before.
 fn write_beside(path: &Path, contents: &[u8]) -> io::Result<()> {
     let name = path.file_name().ok_or(io::ErrorKind::InvalidFilename)?.to_string_lossy();
-    let temporary = path.with_file_name(format!(".{name}.{}.tmp", std::process::id()));
-    // A process of the same number may have been killed while it wrote.
-    let _ = fs::remove_file(&temporary);
+    let temporary = path.with_file_name(format!(".{name}.{}.tmp", own_number()));
     unfinished().insert(temporary.clone());
     let written = fs::File::create_new(&temporary)
         .and_then(|mut file| file.write_all(contents))
@@ -59,6 +58,12 @@ fn write_beside(path: &Path, contents: &[u8]) -> io::Result<()> {
     }
     unfinished().remove(&temporary);
     written
+}
+
+/// A number that no other process has. The number of the process is none: those of containers that share a folder are often equal.
+fn own_number() -> u64 {
+    static NUMBER: LazyLock<u64> = LazyLock::new(|| RandomState::new().build_hasher().finish());
+    *NUMBER
 }
 
 /// Whether a file in the folder of a result is what a process writes before it renames it to the result.
