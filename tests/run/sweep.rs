@@ -259,7 +259,7 @@ fn a_requirement_is_met_is_not_met_or_needs_more_cases() {
             0,
             "requirement MET: at least 95.12 % of all cases pass",
         ),
-        ("open", "cases = 30\n[require]\npassing = 0.95\n", 4, "needs at least 59 cases"),
+        ("open", "cases = 30\n[require]\npassing = 0.95\n", 4, "59 cases are needed"),
         (
             "failed",
             "cases = 30\n[set]\n\"check.tracking.path_tcp_mm\" = 4.9\n[require]\npassing = 0.95\n",

@@ -62,14 +62,19 @@ fn too_few_cases_are_an_answer_of_their_own() {
     assert_eq!(wide.code, 4, "{wide:?}");
     assert!(
         wide.stdout.contains(
-            "NOT ENOUGH CASES: clearance passes in 100 of 100 cases, required 99 %; needs at least 299 cases"
+            "NOT ENOUGH CASES: clearance passes in 100 of 100 cases, required 99 %; 299 cases are needed, if none fails"
         ),
         "{wide:?}"
     );
-    assert!(wide.stderr.contains("cases = 299"), "{wide:?}");
+    assert!(wide.stderr.contains("at least 299 are needed"), "{wide:?}");
+    assert!(
+        wide.stdout.contains("what would answer: congruent run")
+            && wide.stdout.contains("uncertainty.cases=299"),
+        "{wide:?}"
+    );
     let near = run(&scratch, &["uncertainty.cases=100", "check.clearance.minimum_mm=33"]);
     assert_eq!(near.code, 1, "{near:?}");
-    assert!(near.stdout.contains("to see the first case that fails: congruent run"), "{near:?}");
+    assert!(near.stdout.contains("the first case that fails: congruent run"), "{near:?}");
 }
 
 #[test]
@@ -233,6 +238,16 @@ fn what_is_no_uncertainty_is_refused() {
     refused(
         &with("[[uncertainty.vary]]\nkey = \"joints.friction\"\nuniform = [-1.0, 3.0]\n"),
         "key \"joints.friction\" = -1.0: expected a finite number, 0 or above",
+    );
+    refused(
+        &with(
+            "[[uncertainty.vary]]\nkey = \"robot.link.forearm_link.mass_kg\"\nnormal = { mean = 2.0, deviation = 1.0 }\n",
+        ),
+        "is negative",
+    );
+    refused(
+        &with("[[uncertainty.vary]]\nkey = \"start.joints_deg\"\nnormal = { mean = 2.0, deviation = 1.0 }\n"),
+        "must be a table of keys and values",
     );
     refused(
         &with("[[uncertainty.vary]]\nkey = \"robot.link.forearm.mass_kg\"\nplus_minus = 0.1\n"),

@@ -47,10 +47,12 @@ pub(crate) struct RobotArgument {
 /// Values in place of those of a robot's files.
 #[derive(Debug, Clone, clap::Args)]
 pub(crate) struct SetArguments {
-    /// Replace a value of the robot: a key of robot.toml, such as `dh.row.elbow_joint.d_m=0.4`, or a value of a link or joint,
-    /// whichever file has it, such as `link.forearm_link.mass_kg=3`. The files stay as they are.
+    /// Replace a value of the robot, for example `dh.row.elbow_joint.d_m=0.4` or `link.forearm_link.mass_kg=3`; the files stay as
+    /// they are.
     ///
-    /// An entry of a list has its number, from 1, or its joint or name. VALUE is TOML. May be given several times.
+    /// KEY is a key of robot.toml: keys joined by dots, an entry of a list by its number, from 1, or its joint. Or it is a value of a
+    /// link or joint, also of one in a URDF or MJCF: `link.NAME.mass_kg` and `com_m`, `joint.NAME.damping`, `friction`, `armature`,
+    /// `xyz_m` and `rpy_deg`. VALUE is TOML, in the unit of the key. May be given several times.
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Override::of_argument)]
     overrides: Vec<Override>,
 }

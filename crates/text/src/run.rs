@@ -37,7 +37,7 @@ pub fn run_text(report: &RunReport) -> String {
         let _ = writeln!(text, "  motion {}   {servo}", servo.motion);
     }
     if report.uncertainty.is_some() {
-        let _ = writeln!(text, "  with the values of the file");
+        let _ = writeln!(text, "  with nominal values");
     }
     for check in report.checks_failed_first() {
         checked(&mut text, check);
@@ -83,8 +83,8 @@ fn in_cases(text: &mut String, report: &RunReport, cases: &UncertaintyReport) {
     for line in unfinished_words(cases) {
         *text += &paragraph(&line, 2, 4);
     }
-    if let Some((what, command)) = report.command_of_case() {
-        let _ = writeln!(text, "  to see {what}: {command}");
+    if let Some((what, command)) = report.command_of_cases() {
+        let _ = writeln!(text, "  {what}: {command}");
     }
 }
 

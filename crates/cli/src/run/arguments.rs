@@ -33,8 +33,8 @@ pub(crate) struct Arguments {
     jobs: Option<u16>,
     /// Replace a value of all scenarios, for example controller.stiffness=500 or check.1.position_m=1e-6.
     ///
-    /// KEY is the keys of the file joined by dots; an entry of a list has its number, from 1. VALUE is TOML
-    /// or a word. May be given several times.
+    /// KEY is the keys of the file joined by dots; an entry of a list has its number, from 1, or its kind, name or joint; a key that
+    /// begins with robot. is one of the robot. VALUE is TOML or a word, in the unit of the key. May be given several times.
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Override::of_argument)]
     overrides: Vec<Override>,
     /// Use this seed instead of the scenario's; the same as --set seed=N.

@@ -30,8 +30,8 @@ pub(super) fn cases(report: &RunReport) -> Markup {
                 @for check in cases.checks_failed_first() { (rows(cases, check)) }
             }
             @for line in unfinished_words(cases) { p { (line) } }
-            @if let Some((what, command)) = report.command_of_case() { p { "To see " (what) ": " code { (command) } } }
-            p.small { "Small pictures show how the values of the cases are distributed; the line is the limit. Everything else on this page is the run with the values of the file." }
+            @if let Some((what, command)) = report.command_of_cases() { p { (capitalised(what)) ": " code { (command) } } }
+            p.small { "Small pictures show how the values of the cases are distributed; the line is the limit, if it is that near. Everything else on this page is the run with nominal values: those of the file and of --set." }
         }
     }
 }
@@ -40,11 +40,11 @@ fn one_case(case: &CaseOfRun) -> Markup {
     html! {
         section {
             h2 { "Case " (case.case) }
-            p { "The run has these values. Controllers know the masses, frictions and robot of the file." }
+            p { "The run has these values. Controllers and planner know nominal masses, frictions and geometry." }
             table {
-                thead { tr { th { "key" } th { "value" } th { "in the file" } } }
+                thead { tr { th { "key" } th { "value" } th { "nominal" } } }
                 @for of in &case.values {
-                    tr { th scope="row" { code { (of.key) } } td { (of.shown()) } td { @if let Some(value) = of.in_file { (value) } } }
+                    tr { th scope="row" { code { (of.key) } } td { (of.shown()) } td { @if let Some(value) = of.nominal { (value) } } }
                 }
             }
         }
@@ -75,7 +75,7 @@ fn rows(cases: &UncertaintyReport, check: &CheckInCases) -> Markup {
                     td data-label="limit" { (limit.unwrap_or_default()) }
                     td data-label="cases" { (histogram(of)) }
                 }
-                @if let Some(deciding) = decided_by(&of.deciding) {
+                @if let Some(deciding) = decided_by(of) {
                     tr.notes { td.again {} td.again {} td colspan="6" { (deciding) } }
                 }
             }

@@ -17,7 +17,7 @@ use crate::parts::{BadgeKind, BarScale, Pointer, UsedShare, badge, value};
 const MOST_MEASURES: usize = 12;
 
 /// Which run the tables are of, if there are cases with other values.
-const WITH_FILE: &str = " with the values of the file";
+const NOMINAL: &str = " with nominal values";
 
 /// The tables: of the checks that failed, and of the others, which are folded if any failed.
 pub(super) fn checks(report: &RunReport, run: &RunContent) -> Markup {
@@ -33,11 +33,11 @@ pub(super) fn checks(report: &RunReport, run: &RunContent) -> Markup {
         section {
             @if report.checks.is_empty() { h2 { "Checks" } p { "The scenario has no check." } }
             @else if failed.is_empty() {
-                h2 { "What was checked" @if report.uncertainty.is_some() { (WITH_FILE) } }
+                h2 { "What was checked" @if report.uncertainty.is_some() { (NOMINAL) } }
                 (table(&others))
                 (BarScale::words())
             } @else {
-                h2 { "The checks that failed" @if report.uncertainty.is_some() { (WITH_FILE) } }
+                h2 { "The checks that failed" @if report.uncertainty.is_some() { (NOMINAL) } }
                 (table(&failed))
                 (BarScale::words())
                 @if !others.is_empty() {

@@ -47,13 +47,16 @@ pub fn diagnose_run(run: &mut Run<'_>, outcome: &Outcome) -> Option<RunDiagnosis
         return None;
     }
     let setup = run.setup();
+    // What is wrong with a case of [uncertainty] is known: the values that its controllers do not know.
+    if setup.uncertain_case.is_some() {
+        return None;
+    }
     let diagnosed = DiagnosedRun {
         description: &setup.description,
         clock: &setup.clock,
         controller: setup.controller.kind,
         actuators: setup.actuator_limits(),
-        // What a case has that its controllers do not know is what is wrong.
-        dynamics: setup.known_dynamics(),
+        dynamics: setup.declared_dynamics(),
         bodies: MovingBodies::new(&setup.bodies, &setup.obstacles),
     };
     let (samples, clearance) = run.samples_and_clearance();

@@ -289,10 +289,15 @@ impl RunReport {
         words.chain(self.overrides.iter().map(set)).chain(seed).collect::<Vec<_>>().join(" ")
     }
 
-    /// What is worth seeing of the cases of `[uncertainty]`, and the command that runs it with page and recording: the first case in which
-    /// a check fails, or of the first quantity the worst.
-    pub fn command_of_case(&self) -> Option<(&'static str, String)> {
-        let checks = self.uncertainty.as_ref()?.checks_failed_first();
+    /// What to run next of a scenario with cases, and the command: as many cases as would answer; or the first case in which a check
+    /// fails, or else the worst of the first quantity, with page and recording.
+    pub fn command_of_cases(&self) -> Option<(&'static str, String)> {
+        let cases = self.uncertainty.as_ref()?;
+        let needed = cases.checks.iter().filter_map(|check| check.requirement.cases_needed).max();
+        if let (Verdict::NotEnoughCases, Some(needed)) = (self.verdict, needed) {
+            return Some(("what would answer", self.command_with(&format!("uncertainty.cases={needed}"))));
+        }
+        let checks = cases.checks_failed_first();
         let failing = |is_met: bool| {
             let of_verdict =
                 |check: &&&CheckInCases| (check.requirement.verdict == RequirementVerdict::Met) == is_met;
@@ -308,7 +313,15 @@ impl RunReport {
 
     /// The command that runs a case of `[uncertainty]` alone.
     pub(super) fn command_of(&self, case: u64) -> String {
-        format!("{} --set uncertainty.case={case}", self.command())
+        self.command_with(&format!("uncertainty.case={case}"))
+    }
+
+    /// The command with one value more, in place of an earlier one of its key.
+    fn command_with(&self, set: &str) -> String {
+        let key = set.split('=').next().unwrap_or(set);
+        let others = self.overrides.iter().filter(|change| change.split('=').next() != Some(key));
+        let with = Self { overrides: others.cloned().chain([set.to_owned()]).collect(), ..self.clone() };
+        with.command()
     }
 
     /// The checks, those that failed first.

@@ -52,14 +52,17 @@ impl RunReport {
         if check.requirement.verdict != RequirementVerdict::Met {
             lines.extend(unfinished_words(cases));
             let command = check.first_failing.map(|case| self.command_of(case));
-            lines.extend(command.map(|command| format!("to see the first case that fails: {command}")));
+            lines.extend(command.map(|command| format!("the first case that fails: {command}")));
         }
         let output = lines.join("\n");
         let reason = || Reason { kind: check.check.word().to_owned(), message: output.clone() };
         let result = match check.requirement.verdict {
             RequirementVerdict::Met => TestResult::Passed,
             RequirementVerdict::NotMet => TestResult::Failed(reason()),
-            RequirementVerdict::NotEnoughCases => TestResult::Error(reason()),
+            RequirementVerdict::NotEnoughCases => {
+                let Reason { kind, message } = reason();
+                TestResult::Error(Reason { kind, message: format!("not enough cases: {message}") })
+            }
         };
         let place = CasePlace::if_known(self.scenario_file.as_deref(), check.line);
         let added = if check.is_default { [BY_DEFAULT, IN_CASES].concat() } else { IN_CASES.to_owned() };

@@ -58,11 +58,11 @@ impl Distribution {
         }
     }
 
-    /// Its least and its largest value, as TOML, each with one just inside of it; of single values all, twice.
+    /// Its least and its largest value, as TOML, each with one just inside of it; of single values all, twice. An end that is infinite is
+    /// the value just inside.
     pub fn ends(&self) -> Vec<[String; 2]> {
         /// Share of a distribution between an end and the value inside of it.
         const INSIDE: f64 = 1e-6;
-        let inside = [INSIDE, 1.0 - INSIDE].map(|share| self.value(share));
         let ends = match *self {
             Self::Values(ref values) => {
                 return values.iter().map(|value| [value.clone(), value.clone()]).collect();
@@ -70,8 +70,11 @@ impl Distribution {
             Self::Normal { range, .. } => range,
             _ => [0.0, 1.0].map(|share| self.number(share)),
         };
-        let ends = ends.into_iter().zip(inside).filter(|(end, _)| end.is_finite());
-        ends.map(|(end, inside)| [number_as_toml(end), inside]).collect()
+        let inside = [INSIDE, 1.0 - INSIDE].map(|share| self.number(share));
+        let end = |(end, inside): (f64, f64)| {
+            [if end.is_finite() { end } else { inside }, inside].map(number_as_toml)
+        };
+        ends.into_iter().zip(inside).map(end).collect()
     }
 
     /// The same of a distribution of numbers; NaN for one of values.

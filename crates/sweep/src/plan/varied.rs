@@ -34,7 +34,7 @@ pub struct VariedKey {
     pub(super) described: VariedValue,
     /// The value of the file, if the distribution is around it.
     #[serde(skip)]
-    pub(crate) in_file: Option<f64>,
+    pub(crate) nominal_value: Option<f64>,
 }
 
 impl VariedKey {
@@ -111,13 +111,13 @@ pub(super) fn varied(
     } else {
         let distribution = distribution(written)?;
         let words = distribution.to_string();
-        (vec![KeysWithValues { keys: keys.to_vec(), distribution, in_file: None }], words)
+        (vec![KeysWithValues { keys: keys.to_vec(), distribution, nominal_value: None }], words)
     };
     let described = VariedValue { keys: keys.to_vec(), distribution: words };
-    let of = |KeysWithValues { keys, distribution, in_file }| {
+    let of = |KeysWithValues { keys, distribution, nominal_value }| {
         let steps = steps(written.steps, &distribution, sampling)?;
         let (place, described) = (place.clone(), described.clone());
-        Ok(VariedKey { keys, distribution, steps, place, described, in_file })
+        Ok(VariedKey { keys, distribution, steps, place, described, nominal_value })
     };
     found.into_iter().map(of).collect()
 }
@@ -126,7 +126,7 @@ pub(super) fn varied(
 struct KeysWithValues {
     keys: Vec<String>,
     distribution: Distribution,
-    in_file: Option<f64>,
+    nominal_value: Option<f64>,
 }
 
 /// Half of a range around a value of the file.
@@ -206,7 +206,7 @@ fn around_values(
         (range[0] < range[1]).then(|| KeysWithValues {
             keys: vec![number.key],
             distribution: Distribution::Uniform(range),
-            in_file: Some(number.value),
+            nominal_value: Some(number.value),
         })
     };
     let found: Vec<_> = numbers.into_iter().filter_map(range).collect();

@@ -3,7 +3,7 @@
 use congruent_input::{Diagnostic, Findings, Severity};
 
 use super::runner::CaseRunner;
-use crate::plan::VariedKey;
+use crate::plan::{Distribution, VariedKey};
 
 /// Names of the codes that say what a robot cannot do from there, and not that the scenario is wrong: what cases are about.
 const OF_THE_RUN: [&str; 14] = [
@@ -46,7 +46,9 @@ impl CaseRunner<'_> {
                 return Some(placed);
             }
             let message = format!("key \"{key}\" = {end}: {}", placed.message);
-            Some(Diagnostic { message, ..placed })
+            let is_open = matches!(distribution, Distribution::Normal { range, .. } if range.iter().any(|end| end.is_infinite()));
+            let cut = is_open.then(|| "cut the normal distribution by min and max".to_owned());
+            Some(Diagnostic { message, help: cut.or(placed.help.clone()), ..placed })
         })
     }
 

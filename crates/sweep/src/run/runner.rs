@@ -72,7 +72,7 @@ impl<'a> CaseRunner<'a> {
         let value = |(varied, value): (&VariedKey, &String)| CaseValue {
             key: varied.keys.join(", "),
             value: value.clone(),
-            in_file: varied.in_file,
+            nominal: varied.nominal_value,
         };
         let values = self.plan.varied.iter().zip(&case.values).map(value);
         Ok(setup.as_case(Arc::clone(known), case.case, values.collect()))
@@ -174,10 +174,7 @@ fn same_joints(robot: &Robot, known: &Robot) -> Result<(), Diagnostic> {
     if names(robot) == names(known) {
         return Ok(());
     }
-    Err(Diagnostic::error(
-        codes::sweep::KEY,
-        "the robot has other links or joints than with the values of the file",
-    ))
+    Err(Diagnostic::error(codes::sweep::KEY, "the robot has other links or joints than with nominal values"))
 }
 
 /// The error of a run that somebody has ended, which is no result.

@@ -42,9 +42,9 @@ pub struct CaseValue {
     pub key: String,
     /// The value, as TOML.
     pub value: String,
-    /// The value of the file, if the distribution is around it.
+    /// The nominal value, of the file or of --set, if the distribution is around it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub in_file: Option<f64>,
+    pub nominal: Option<f64>,
 }
 
 impl CaseValue {
@@ -54,10 +54,10 @@ impl CaseValue {
         number.map_or_else(|| self.value.clone(), |number: f64| quantity_with_digits(number, "", 5))
     }
 
-    /// `payload.gripper.mass_kg = 1.9659 (file: 2)`.
+    /// `payload.gripper.mass_kg = 1.9659 (nominal 2)`.
     pub fn words(&self) -> String {
-        let in_file = self.in_file.map(|value| format!(" (file: {})", quantity_with_digits(value, "", 5)));
-        format!("{} = {}{}", self.key, self.shown(), in_file.unwrap_or_default())
+        let nominal = self.nominal.map(|value| format!(" (nominal {})", quantity_with_digits(value, "", 5)));
+        format!("{} = {}{}", self.key, self.shown(), nominal.unwrap_or_default())
     }
 }
 

@@ -72,6 +72,6 @@ fn too_few_cases(scenario: &Scenario, place: FilePlace<'_>) -> Option<Diagnostic
             uncertainty.cases
         );
         let warning = Diagnostic::warning(codes::scenario::FEW_CASES, message);
-        place.key("uncertainty").key("cases").mark(warning.with_help(format!("cases = {least}, at least")))
+        place.key("uncertainty").key("cases").mark(warning.with_help(format!("at least {least} are needed, if none fails")))
     })
 }

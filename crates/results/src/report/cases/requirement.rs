@@ -74,7 +74,8 @@ impl RequirementResult {
             [_, upper] if upper < passing => RequirementVerdict::NotMet,
             _ => RequirementVerdict::NotEnoughCases,
         };
-        let is_open = verdict == RequirementVerdict::NotEnoughCases;
+        // That every case passes is no share that a number of cases would show.
+        let is_open = verdict == RequirementVerdict::NotEnoughCases && passing < 1.0;
         let cases_needed = is_open.then(|| needed(requirement, passed, counted)).flatten();
         Self { passing, confidence, passed, counted, interval, verdict, cases_needed }
     }
@@ -170,7 +171,7 @@ fn needed(requirement: PassingShare, passed: u64, counted: u64) -> Option<u64> {
     }
     // Whole cases fail, so that somewhat fewer may answer as well.
     let fewer = (1..=20).map(|percent| most - most * percent / 100).filter(|cases| *cases > counted);
-    fewer.filter(|cases| answers(*cases)).last().or(Some(most))
+    fewer.filter(|cases| answers(*cases)).next_back().or(Some(most))
 }
 
 #[cfg(test)]

@@ -55,8 +55,8 @@ fn cases_needed(requirement: &RequirementResult) -> String {
     let RequirementResult { passed, counted, .. } = requirement;
     match requirement.cases_needed {
         None => String::new(),
-        Some(cases) if passed == counted => format!("; needs at least {cases} cases, if none fails"),
-        Some(cases) => format!("; needs some {cases} cases, if as large a share of them passes"),
+        Some(cases) if passed == counted => format!("; {cases} cases are needed, if none fails"),
+        Some(cases) => format!("; about {cases} cases are needed, if as large a share passes"),
     }
 }
 
@@ -90,7 +90,7 @@ pub fn case_lines(cases: &UncertaintyReport, check: &CheckInCases) -> Vec<String
         check.requirement.passing < 1.0 || check.requirement.verdict != RequirementVerdict::Met;
     let words = |of: &QuantityInCases| {
         let words = QuantityWords::new(of, check.requirement.passing).to_string();
-        std::iter::once(words).chain(decided_by(&of.deciding).filter(|_| is_in_question))
+        std::iter::once(words).chain(decided_by(of).filter(|_| is_in_question))
     };
     let mut first = passes_in(cases, check);
     if check.is_default {
@@ -99,51 +99,56 @@ pub fn case_lines(cases: &UncertaintyReport, check: &CheckInCases) -> Vec<String
     std::iter::once(first).chain(check.quantities.iter().flat_map(words)).collect()
 }
 
-/// Which varied values decide a quantity: `variance: 62 % from joints.friction (more makes it larger), 20 % from payload.tool.mass_kg`.
-/// `None` if none alone does.
-pub fn decided_by(deciding: &[KeyImportance]) -> Option<String> {
+/// Which varied values decide a quantity: `variance: 62 % (55 to 69 %) from joints.friction (more makes it larger)`. `None` if none alone
+/// does.
+pub fn decided_by(of: &QuantityInCases) -> Option<String> {
     /// The report has more of them.
     const LISTED: usize = 3;
+    // Of a margin the report has the opposite, the distance beyond the limit.
+    let sign = if margin_words(of, 0.0).is_some() { -1.0 } else { 1.0 };
     let words = |key: &KeyImportance| {
-        let direction = key.direction().map_or_else(String::new, |direction| format!(" ({direction})"));
-        format!("{} from {}{direction}", key.percent(), key.key)
+        let shown = KeyImportance { rank_correlation: sign * key.rank_correlation, ..key.clone() };
+        let direction = shown.direction().map_or_else(String::new, |direction| format!(" ({direction})"));
+        let [from, to] = key.interval.map(|share| 100.0 * share.clamp(0.0, 1.0));
+        format!("{} ({from:.0} to {to:.0} %) from {}{direction}", key.percent(), key.key)
     };
-    let listed: Vec<String> = deciding.iter().take(LISTED).map(words).collect();
+    let listed: Vec<String> = of.deciding.iter().take(LISTED).map(words).collect();
     (!listed.is_empty()).then(|| format!("variance: {}", listed.join(", ")))
 }
 
-/// `passes in 297 of 300 cases; in at least 97.43 % of all cases (confidence 95 %), required 95 %`.
+/// A value of a quantity that is shown by its margin alone; `None` for others. A required margin is that of the check; it is written
+/// once, as its limit.
+fn margin_words(of: &QuantityInCases, value: f64) -> Option<String> {
+    value_and_margin(of.quantity, of.unit, of.bound, [value, of.limit.max(0.0)])
+}
+
+/// `passes in 297 of 300 cases: at least 97.43 % of all possible cases would (confidence 95 %; required 95 %)`.
 pub fn passes_in(cases: &UncertaintyReport, check: &CheckInCases) -> String {
-    let RequirementResult { passing, passed, counted, .. } = check.requirement;
+    let RequirementResult { passing, confidence, passed, counted, interval: [lower, upper], verdict, .. } =
+        check.requirement;
     let lost = match cases.without_result {
         0 => String::new(),
         lost if check.is_default => format!(" with a result ({lost} have none)"),
         lost => format!(" ({lost} without a result)"),
     };
     let first = check.first_failing.map_or_else(String::new, |case| format!(", not in case {case}"));
-    let required = if passing < 1.0 { percent(passing) } else { "in every case".to_owned() };
-    format!(
-        "passes in {passed} of {counted} cases{lost}{first}{}, required {required}{}",
-        share_known(cases.sampling, &check.requirement),
-        cases_needed(&check.requirement)
-    )
-}
-
-/// What the cases that ran show of all possible ones; nothing if they are no sample of them.
-fn share_known(sampling: CaseSampling, requirement: &RequirementResult) -> String {
-    let RequirementResult { confidence, interval: [lower, upper], passing, .. } = *requirement;
-    if sampling == CaseSampling::Grid {
-        return String::new();
-    }
     let (lower, upper) = (percent_of_bound(lower, f64::floor), percent_of_bound(upper, f64::ceil));
-    let known = percent(confidence);
-    match requirement.verdict {
+    let known = format!("confidence {}", percent(confidence));
+    let required = if passing < 1.0 { percent(passing) } else { "every case of the run".to_owned() };
+    let share = match verdict {
+        // The cases of a grid are no sample.
+        _ if cases.sampling == CaseSampling::Grid => format!("; required: {required}"),
         RequirementVerdict::NotEnoughCases if passing < 1.0 => {
-            format!("; in {lower} to {upper} of all cases (confidence {known} of each bound)")
+            format!(
+                ": {lower} to {upper} of all possible cases would ({known} of each bound; required: {required})"
+            )
         }
-        RequirementVerdict::NotMet => format!("; in at most {upper} of all cases (confidence {known})"),
-        _ => format!("; in at least {lower} of all cases (confidence {known})"),
-    }
+        RequirementVerdict::NotMet => {
+            format!(": at most {upper} of all possible cases would ({known}; required: {required})")
+        }
+        _ => format!(": at least {lower} of all possible cases would ({known}; required: {required})"),
+    };
+    format!("passes in {passed} of {counted} cases{lost}{first}{share}{}", cases_needed(&check.requirement))
 }
 
 /// A quantity of a check in all cases, in words.
@@ -172,23 +177,20 @@ impl QuantityWords {
             worst: None,
             first_violation: None,
         };
-        // A required margin is that of the check; it is written once, as its limit.
         let required =
             (of.limit < 0.0).then(|| format!("required margin >= {}", quantity(-of.limit, of.unit.symbol())));
-        let margin =
-            |value: f64| value_and_margin(of.quantity, of.unit, of.bound, [value, of.limit.max(0.0)]);
         let shown = |value: Option<f64>| match value {
             None if of.unit == SiUnit::Second => "not reached".to_owned(),
             None => "not finite".to_owned(),
             Some(value) if of.quantity == Quantity::Distance && value < 0.0 => {
                 format!("overlap {}", quantity(-value, of.unit.symbol()))
             }
-            Some(value) => margin(value).unwrap_or_else(|| {
+            Some(value) => margin_words(of, value).unwrap_or_else(|| {
                 let [value, _] = compared_quantities([value, of.limit], of.unit.symbol());
                 value
             }),
         };
-        let is_margin = margin(0.0).is_some();
+        let is_margin = margin_words(of, 0.0).is_some();
         let what = if is_margin { "joint limit".to_owned() } else { quantity_words(of.quantity) };
         let pairs = if of.of_changing_pairs { " of pairs that move" } else { "" };
         let side = if of.bound == Bound::AtMost && !is_margin { "at most" } else { "at least" };
@@ -221,7 +223,7 @@ impl fmt::Display for QuantityWords {
     }
 }
 
-/// The reason for the verdict of a run with cases, whose run with the values of the file had this verdict and sentence.
+/// The reason for the verdict of a run with cases, whose run with nominal values had this verdict and sentence.
 pub(crate) fn uncertainty_sentence(own: Verdict, sentence: &str, cases: &UncertaintyReport) -> String {
     let UncertaintyReport { cases: asked, ran, without_result, checks, .. } = cases;
     let lost = match without_result {
@@ -244,7 +246,7 @@ pub(crate) fn uncertainty_sentence(own: Verdict, sentence: &str, cases: &Uncerta
             }
         }
         Verdict::NotAsExpected if cases.is_whole() => {
-            format!("{sentence} with the values of the file; {}", named())
+            format!("with nominal values: {sentence}; in the cases: {}", named())
         }
         _ => sentence.to_owned(),
     }
