@@ -29,7 +29,7 @@ fn a_table_with_another_value_is_another_robot() {
     for words in ["a_m = -0.39, expected a_m = -0.3922", "; --set dh.row.elbow_joint.a_m=-0.39"] {
         assert!(answer.stdout.contains(words), "{answer:?}");
     }
-    assert_eq!(json(&set)["replaced_values"], serde_json::json!(["dh.row.elbow_joint.a_m=-0.39"]));
+    assert_eq!(json(&set)["chain"]["set_values"], serde_json::json!(["dh.row.elbow_joint.a_m=-0.39"]));
     assert_eq!(congruent(&["check", &robot]).code, 0, "the file is as it was");
 }
 
@@ -59,6 +59,7 @@ fn what_cannot_be_set_is_refused() {
         let printed: Vec<&str> = answer.stderr.split_whitespace().filter(|word| *word != "│").collect();
         assert!(answer.code == 2 && printed.join(" ").contains(words), "{answer:?}");
     };
+    refused(&["check", &robot, "--set", "link.forearm_link.mass_kg=3"], "this is a key of no file");
     refused(&["fk", &robot, "--set", "link.forearm.mass_kg=3"], "did you mean \"forearm_link\"");
     refused(&["fk", &robot, "--set", "dh.row.elbow.a_m=3"], "elbow_joint");
     refused(&["fk", &robot, "--set", "link.forearm_link.mass_kg=-3"], "-3 is negative");

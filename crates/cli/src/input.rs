@@ -63,9 +63,9 @@ impl SetArguments {
         load_robot_set(path, &self.of_robot(), access)
     }
 
-    /// The values, `KEY=VALUE`.
-    pub(crate) fn written(&self) -> Vec<String> {
-        self.of_robot().iter().map(ToString::to_string).collect()
+    /// The same for what files say, so without values of links and joints.
+    pub(crate) fn load_file(&self, path: &Path, access: &FileAccess) -> Result<RobotDescription, Findings> {
+        congruent::load_robot_file_set(path, &self.of_robot(), access)
     }
 
     /// A key that begins as it does in a scenario is the same one.
@@ -114,6 +114,9 @@ pub(crate) trait RobotArguments: clap::Args + std::fmt::Debug {
         let description = self.read()?;
         description.check_capability(needed)?;
         printer.warnings(None, &description.warnings);
+        printer.notes(
+            (!description.set_values.is_empty()).then(|| description.set_values.join(", ")).as_deref(),
+        );
         printer.detail(|| read_from(&description));
         Ok(description)
     }

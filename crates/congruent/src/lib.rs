@@ -50,10 +50,10 @@ pub mod watch;
 mod with_physics;
 
 pub use check::{
-    ChangedMass, ChangedTorque, DeclaredSource, Headline, LeftOutInChain, LoadedKind, NamedBy,
+    ChangedMass, ChangedRobots, ChangedTorque, DeclaredSource, Headline, LeftOutInChain, LoadedKind, NamedBy,
     OtherDescription, ReportedJoint, ReportedMapping, RevisionChange, RobotCheck, WrittenFix,
-    cannot_be_checked, check, check_against, check_suite, checked_robot, measured_headline, measured_suite,
-    other_description, unusable_inertials,
+    cannot_be_checked, check, check_against, check_suite, checked_robot, load_robot_file_set,
+    measured_headline, measured_suite, other_description, robots_of_changed, unusable_inertials,
 };
 pub use congruent_lint_report::{
     LintFinding, LintFix, LintReport, LintSummary, LintVerdict, lint, lint_among,

@@ -122,6 +122,8 @@ pub struct RobotDescription {
     pub inputs: Vec<InputFile>,
     /// The texts of robot file and URDF.
     pub places: Places,
+    /// Values that were set in place of those of the files, `KEY=VALUE`.
+    pub set_values: Vec<String>,
     /// Set if the robot is what a program has loaded: no file has its values, and what it lacks is 0. How far the program's own poses were
     /// found to be from those of the robot, at most.
     pub loaded: Option<Tolerance>,
@@ -153,6 +155,7 @@ impl RobotDescription {
             warnings: Vec::new(),
             inputs: Vec::new(),
             places: Places::default(),
+            set_values: Vec::new(),
             loaded: None,
         }
     }
@@ -301,6 +304,7 @@ impl RobotDescription {
             tip: self.name_of(self.tip).to_owned(),
             tip_is: self.chain_ends.tip,
             joints: joints.collect(),
+            set_values: self.set_values.clone(),
         }
     }
 

@@ -4,7 +4,6 @@
 //! Parsers take text and give a value or diagnostics; only `files/` of crate `input` opens files.
 
 mod chain;
-mod changed;
 pub mod codes;
 mod description;
 mod load;
@@ -21,7 +20,6 @@ mod tolerance_scale;
 mod urdf;
 
 pub use chain::{ChainEnd, ChainEnds, ReportedChain};
-pub use changed::{ChangedRobots, robots_of_changed};
 pub use congruent_meshes::{HullPoints, Mesh, read_mesh};
 pub use congruent_mjcf::codes::mjcf::LOOP as MJCF_LOOP;
 pub use congruent_robot::{
@@ -40,8 +38,9 @@ pub use own_model::{OwnModelForm, OwnModelPlaces};
 pub use parameter_places::{JointElement, ParameterPlace, ParameterPlaces, PlaceElsewhere};
 pub use robot_file::{
     ConstantKey, ConstantPart, DeclaredInertial, DeclaredMapping, DeclaredReference, DeclaredVariable,
-    DynamicsTable, InertialDigits, InertialFrame, InertialPlaces, InertialPoint, RobotFilePlaces, RowKey,
-    TableDigits, ValuePlace, WrittenIgnore, WrittenLint, WrittenRobot, dh_text, robot_file_schema,
+    DynamicsTable, InertialDigits, InertialFrame, InertialPlaces, InertialPoint, ROBOT_FILE,
+    ROBOT_FILE_BYTES, RobotFilePlaces, RowKey, TableDigits, ValuePlace, WrittenIgnore, WrittenLint,
+    WrittenRobot, dh_text, robot_file_schema,
 };
 pub use set_values::load_robot_set;
 pub use tolerance_scale::ToleranceScale;

@@ -275,6 +275,7 @@ fn declared(
         warnings: Vec::new(),
         inputs: Vec::new(),
         places: Places { robot_file: table, inertials, ..places },
+        set_values: Vec::new(),
         loaded: None,
     })
 }

@@ -55,5 +55,6 @@ pub fn load_robot_set(
     };
     let robot =
         of_model.into_iter().try_fold(description.robot.clone(), |robot, change| robot.with_value(change))?;
-    Ok(RobotDescription { robot, ..description })
+    let set_values = overrides.iter().map(ToString::to_string).collect();
+    Ok(RobotDescription { robot, set_values, ..description })
 }

@@ -59,6 +59,7 @@ fn description() -> RobotDescription {
         warnings: Vec::new(),
         inputs: Vec::new(),
         places: congruent_description::Places::default(),
+        set_values: Vec::new(),
         loaded: None,
     }
 }

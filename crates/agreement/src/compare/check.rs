@@ -108,7 +108,6 @@ pub(super) fn compared(
         tolerance_is_declared: description.declared_tolerance.is_declared(),
         declared_tolerance: description.declared_tolerance,
         requested_tolerance: None,
-        replaced_values: Vec::new(),
         replaced_tolerance: None,
         configurations: configurations.len(),
         seed: options.seed,

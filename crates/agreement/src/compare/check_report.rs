@@ -169,9 +169,6 @@ pub struct CheckReport {
     /// The tolerance that the caller gave in place of the robot file's.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub requested_tolerance: Option<RequestedTolerance>,
-    /// Values that the caller set in place of those of the robot's files, `KEY=VALUE`.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub replaced_values: Vec<String>,
     /// The tolerance that the robot file declares, if the caller checked with another one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub replaced_tolerance: Option<Tolerance>,

@@ -27,7 +27,7 @@ pub(super) struct DisabledPairsArguments {
     /// touching with all joints at 0, or at the middle of a range without 0. Always: touching in 95 % of the sampled
     /// configurations. Never: touching in none of them, which is no proof. Meshes are taken as their convex hulls. The key `srdf`
     /// of a robot file names the file. Pairs that the robot's own SRDF disables are compared with these, and not copied.
-    #[arg(long, value_name = "FILE.srdf", conflicts_with_all = ["configurations", "at", "penetration", "all_pairs", "pair", "ignore", "limit"])]
+    #[arg(long, value_name = "FILE.srdf", conflicts_with_all = ["configurations", "at", "penetration", "all_pairs", "pair", "ignore", "limit", "overrides"])]
     write_srdf: Option<PathBuf>,
     /// Number of random configurations of --write-srdf.
     #[arg(long, default_value_t = 10_000, requires = "write_srdf", value_parser = clap::value_parser!(u32).range(100..=10_000_000))]

@@ -8,10 +8,11 @@ use congruent::{
     analysis::plot::errors,
     cannot_be_checked, check_suite, checked_robot,
     configurations::read_configurations,
-    description::{RobotDescription, RobotQList, Tolerance, robots_of_changed},
+    description::{RobotDescription, RobotQList, Tolerance},
     input::{Diagnostic, Finding, Findings},
     page::{CheckEntry, check_page},
     results::report::TestSuite,
+    robots_of_changed,
     text::{CheckTextParts, TextOptions, check_text_parts, layout::visible_path},
     unusable_inertials,
 };
@@ -275,7 +276,8 @@ fn check(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checke
 
 /// The check against the other description at this place of the list, if there is one.
 fn compared(path: &Path, at: usize, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checked, Failure> {
-    let mut description = arguments.chain.of(arguments.set.load(path, &arguments.access.access()?)?)?;
+    let mut description =
+        arguments.chain.of(arguments.set.load_file(path, &arguments.access.access()?)?)?;
     let mut configurations = RobotQList::new(description.robot.dof());
     // About the options, and not about the descriptions that lint examines.
     let mut of_options = Vec::new();
@@ -325,7 +327,6 @@ fn compared(path: &Path, at: usize, arguments: &Arguments, batch: &Batch<'_>) ->
     report.geometry.warnings.extend(of_options.iter().map(Finding::from));
     report.lint.is_strict = arguments.strict;
     report.geometry.requested_tolerance = arguments.tolerance.map(ToleranceArgument::requested);
-    report.geometry.replaced_values = arguments.set.written();
     report.geometry.replaced_tolerance = arguments.tolerance.and(declared);
     Ok(Checked {
         report,

@@ -66,8 +66,8 @@ impl RobotCheck {
         if let Some(value) = self.first_value_without_effect() {
             let _ = write!(headline.details, "; without effect on torques: {value}");
         }
-        if !self.geometry.replaced_values.is_empty() {
-            let _ = write!(headline.details, "; --set {}", self.geometry.replaced_values.join(", "));
+        if !self.geometry.chain.set_values.is_empty() {
+            let _ = write!(headline.details, "; --set {}", self.geometry.chain.set_values.join(", "));
         }
         if let Some(file) = &self.itself {
             let _ = write!(headline.details, "; --against names {file}, the robot's own file");

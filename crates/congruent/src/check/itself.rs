@@ -11,7 +11,10 @@ use crate::codes;
 /// Whether the other description is the robot's own file, or the URDF or MJCF that its robot file names.
 pub(super) fn is_itself(description: &RobotDescription, other: &RobotDescription) -> bool {
     let is_bare = other.path == other.urdf_path;
-    has_one_file([description, other]) && (is_bare || is_same_file(&description.path, &other.path))
+    // With values that were set the file is another description.
+    let is_as_written = description.set_values.is_empty();
+    let is_own_file = is_as_written && is_same_file(&description.path, &other.path);
+    has_one_file([description, other]) && (is_bare || is_own_file)
 }
 
 /// Whether two descriptions have their links and masses from one file.

@@ -5,10 +5,11 @@ use std::path::Path;
 
 use congruent_agreement::compare::{Agreement, CheckError};
 use congruent_description::{
-    RobotDescription, codes::robot_file::INERTIAL, load_opened_robot, load_robot_with,
+    Robot, RobotDescription, codes::robot_file::INERTIAL, load_opened_robot, load_robot_set, load_robot_with,
 };
 use congruent_input::{
-    Diagnostic, FileAccess, Findings, RevisionName, Severity, absence, codes::file::NOT_FOUND, visible,
+    Diagnostic, FileAccess, Findings, Override, RevisionName, Severity, absence, codes::file::NOT_FOUND,
+    visible,
 };
 use congruent_logs::{RecordedDescription, is_log, recorded_description};
 
@@ -110,5 +111,26 @@ impl RobotCheck {
             Agreement::Disagree => FAILED,
             Agreement::NothingCompared => NOTHING,
         }
+    }
+}
+
+/// Loads a robot with other values than its file has, to be compared: by digits and lines of files, which a value of a link or joint has
+/// not.
+///
+/// # Errors
+/// As [`load_robot_set`], or a key is of a link or joint.
+pub fn load_robot_file_set(
+    path: &Path,
+    overrides: &[Override],
+    access: &FileAccess,
+) -> Result<RobotDescription, Findings> {
+    match overrides.iter().find(|change| Robot::has_value(change)) {
+        None => load_robot_set(path, overrides, access),
+        Some(change) => Err(change
+            .refused("files are compared with their digits and lines, and this is a key of no file")
+            .with_help(
+                "set a key of robot.toml, such as dh.row.elbow_joint.d_m=0.4, or change a copy of the URDF",
+            )
+            .into()),
     }
 }

@@ -45,7 +45,9 @@ pub fn check_suite(name: &str, report: &RobotCheck) -> TestSuite {
     cases.extend(dropped.map(|found| skipped("table", found.message.clone())));
     cases.push(lint_case(report));
     // Nothing moves, so that no time passes but the machine's.
-    TestSuite { cases, change: change_since(report), ..TestSuite::new(name) }
+    let set = &geometry.chain.set_values;
+    let name = if set.is_empty() { name.to_owned() } else { format!("{name} --set {}", set.join(", ")) };
+    TestSuite { cases, change: change_since(report), ..TestSuite::new(&name) }
 }
 
 /// The result of a comparison with the other description that disagrees: of a revision it is a change.

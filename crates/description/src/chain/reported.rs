@@ -42,6 +42,9 @@ pub struct ReportedChain {
     pub tip_is: ChainEnd,
     /// The moving joints between them, mimic joints included.
     pub joints: Vec<String>,
+    /// Values of the robot that were set in place of those of its files, `KEY=VALUE`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub set_values: Vec<String>,
 }
 
 impl fmt::Display for ReportedChain {
@@ -59,6 +62,7 @@ impl fmt::Display for ReportedChain {
             self.tip,
             why(self.tip_is, "chosen: the end of the arm"),
             counted(self.joints.len(), "moving joint")
-        )
+        )?;
+        if self.set_values.is_empty() { Ok(()) } else { write!(f, "; --set {}", self.set_values.join(", ")) }
     }
 }

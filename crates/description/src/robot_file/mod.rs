@@ -39,10 +39,10 @@ use congruent_input::{
 };
 
 /// Size limit of a robot file, bytes.
-pub(crate) const ROBOT_FILE_BYTES: u64 = 1 << 20;
+pub const ROBOT_FILE_BYTES: u64 = 1 << 20;
 
 /// The name that a robot file has in a robot's folder.
-pub(crate) const ROBOT_FILE: &str = "robot.toml";
+pub const ROBOT_FILE: &str = "robot.toml";
 
 /// Parses a robot file; of a row without `kind` and of a tolerance that is a number the help has what the reader of TOML does
 /// not know.

@@ -22,11 +22,11 @@ impl KeyImportance {
     pub fn direction(&self) -> Option<&'static str> {
         /// From here on more and less are seen in a plot. Kind: choice.
         const CLEAR: f64 = 0.3;
-        match self.rank_correlation {
-            correlation if correlation > CLEAR => Some("more makes it larger"),
-            correlation if correlation < -CLEAR => Some("more makes it smaller"),
-            _ => None,
-        }
+        let correlation = self.rank_correlation;
+        // What decides much, and is correlated little, makes it larger to both sides.
+        let is_to_one_side = correlation.abs() > CLEAR && correlation.powi(2) > 0.5 * self.share;
+        let words = if correlation > 0.0 { "more makes it larger" } else { "more makes it smaller" };
+        is_to_one_side.then_some(words)
     }
 
     /// The share in whole per cent.

@@ -170,8 +170,8 @@ fn needed(requirement: PassingShare, passed: u64, counted: u64) -> Option<u64> {
         if answers(middle) { most = middle } else { least = middle }
     }
     // Whole cases fail, so that somewhat fewer may answer as well.
-    let fewer = (1..=20).map(|percent| most - most * percent / 100).filter(|cases| *cases > counted);
-    fewer.filter(|cases| answers(*cases)).next_back().or(Some(most))
+    let mut fewer = (1..=20).map(|percent| most - most * percent / 100).filter(|cases| *cases > counted);
+    fewer.rfind(|cases| answers(*cases)).or(Some(most))
 }
 
 #[cfg(test)]

@@ -134,19 +134,22 @@ pub fn passes_in(cases: &UncertaintyReport, check: &CheckInCases) -> String {
     let first = check.first_failing.map_or_else(String::new, |case| format!(", not in case {case}"));
     let (lower, upper) = (percent_of_bound(lower, f64::floor), percent_of_bound(upper, f64::ceil));
     let known = format!("confidence {}", percent(confidence));
+    let of_all = if check.is_default && cases.without_result > 0 {
+        "of all possible cases with a result would"
+    } else {
+        "of all possible cases would"
+    };
     let required = if passing < 1.0 { percent(passing) } else { "every case of the run".to_owned() };
     let share = match verdict {
         // The cases of a grid are no sample.
         _ if cases.sampling == CaseSampling::Grid => format!("; required: {required}"),
         RequirementVerdict::NotEnoughCases if passing < 1.0 => {
-            format!(
-                ": {lower} to {upper} of all possible cases would ({known} of each bound; required: {required})"
-            )
+            format!(": {lower} to {upper} {of_all} ({known} of each bound; required: {required})")
         }
         RequirementVerdict::NotMet => {
-            format!(": at most {upper} of all possible cases would ({known}; required: {required})")
+            format!(": at most {upper} {of_all} ({known}; required: {required})")
         }
-        _ => format!(": at least {lower} of all possible cases would ({known}; required: {required})"),
+        _ => format!(": at least {lower} {of_all} ({known}; required: {required})"),
     };
     format!("passes in {passed} of {counted} cases{lost}{first}{share}{}", cases_needed(&check.requirement))
 }

@@ -5,14 +5,9 @@ use std::{
     path::{Path, PathBuf},
 };
 
+use congruent_description::{ROBOT_FILE, ROBOT_FILE_BYTES, URDF_BYTES, is_mjcf};
 use congruent_input::{FileAccess, TextKind};
 use toml::{Table, Value};
-
-use crate::{
-    mjcf::is_mjcf,
-    robot_file::{ROBOT_FILE, ROBOT_FILE_BYTES},
-    urdf::URDF_BYTES,
-};
 
 /// Folders below the one that is searched. Kind: choice; deeper trees are built or downloaded, and not written by people.
 const MOST_DEPTH: usize = 12;
