@@ -64,6 +64,19 @@ fn what_cannot_be_set_is_refused() {
     refused(&["fk", &robot, "--set", "dh.row.elbow.a_m=3"], "elbow_joint");
     refused(&["fk", &robot, "--set", "link.forearm_link.mass_kg=-3"], "-3 is negative");
     refused(&["check", &robot, "--set", "tcp.xyz_m.3=0.2", "--fix"], "cannot be used with");
+    let twice = [
+        "fk",
+        &robot,
+        "--set",
+        "joint.elbow_joint.rpy_deg=[0,0,1]",
+        "--set",
+        "joint.elbow_joint.rpy_rad.3=0",
+    ];
+    refused(&twice, "the same value is set by joint.elbow_joint.rpy_deg=[0,0,1]");
+    let alias = ["fk", &robot, "--set", "dh.row.3.a_m=1", "--set", "dh.row.elbow_joint.a_m=2"];
+    refused(&alias, "the same value is set by dh.row.3.a_m=1");
+    refused(&["fk", &robot, "--set", "joint.flange-tool0.friction=1"], "the joint is fixed");
+    refused(&["fk", &robot, "--set", "link.forearm_link.mass_kg.1=3"], "is one number");
     let scratch = ScratchFolder::new();
     let urdf =
         scratch.write("arm.urdf", &fs::read_to_string(workspace().join("robots/ur5e/ur5e.urdf")).unwrap());

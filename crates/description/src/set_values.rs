@@ -2,7 +2,9 @@
 
 use std::{path::Path, sync::Arc};
 
-use congruent_input::{FileAccess, Findings, Override, SourceFile};
+use congruent_input::{
+    FileAccess, Findings, Override, SourceFile, distinct_places, toml_text::parse_document,
+};
 use congruent_robot::Robot;
 
 use crate::{
@@ -47,12 +49,14 @@ pub fn load_robot_set(
                 return Err(first.refused(&why).into());
             }
             let source = open(&path, access, ROBOT_FILE_BYTES)?;
+            distinct_places(of_file.iter().copied(), &parse_document(&source.text)?)?;
             let text =
                 of_file.iter().try_fold(source.text.clone(), |text, change| change.edit_text(&text))?;
             let edited = SourceFile { text, path: source.path.clone(), is_foreign: source.is_foreign };
             load_opened_robot(&Arc::new(edited), access)?
         }
     };
+    Robot::refuse_repeated(&of_model)?;
     let robot =
         of_model.into_iter().try_fold(description.robot.clone(), |robot, change| robot.with_value(change))?;
     let set_values = overrides.iter().map(ToString::to_string).collect();

@@ -35,6 +35,7 @@ pub use visible::{hidden_character, is_hidden, visible, visible_lines};
 pub use written::{
     array::fixed_array,
     digits::{TypedNumber, half_places, half_places_of_point, half_places_of_values},
+    distinct_overrides::distinct_places,
     name::serde_name,
     number::{self, Slack, fitted_number},
     numbers_at::NumberAt,

@@ -4,7 +4,7 @@ use congruent_input::{
     Diagnostic, NumberAt, Override, known_names, rotation_from_rpy_fixed_xyz, rpy_fixed_xyz_rad,
 };
 
-use crate::{Inertia, Joint, JointIndex, JointRounding, Link, LinkIndex, Robot};
+use crate::{Inertia, Joint, JointIndex, JointKind, JointRounding, Link, LinkIndex, Robot};
 
 /// Keys of a link, as of `link.forearm_link.mass_kg`.
 const LINK_KEYS: [&str; 2] = ["mass_kg", "com_m"];
@@ -71,6 +71,22 @@ impl Robot {
         Ok((found, entry))
     }
 
+    /// Refuses two values of one property of a link or joint: which of them is meant is not known.
+    ///
+    /// # Errors
+    /// The second of the two, which names the first.
+    pub fn refuse_repeated(changes: &[&Override]) -> Result<(), Diagnostic> {
+        let keys = changes.iter().map(|change| Ok((*change, PartKey::new(change)?)));
+        let keys: Vec<(&Override, PartKey<'_>)> = keys.collect::<Result<_, Diagnostic>>()?;
+        let again = keys.iter().enumerate().find_map(|(at, (change, key))| {
+            let is_same = |of: &&(&Override, PartKey<'_>)| of.1.shares_value(key) && of.0.excludes(change);
+            keys[..at].iter().find(is_same).map(|(before, _)| (before, change))
+        });
+        again.map_or(Ok(()), |(before, change)| {
+            Err(change.refused(&format!("the same value is set by {before}")))
+        })
+    }
+
     fn named_link(&self, key: &Override, name: &str) -> Result<LinkIndex, Diagnostic> {
         let names = self.links().iter().map(|link| link.name.as_str());
         self.find_link(name).ok_or_else(|| unknown(key, "link", name, names))
@@ -130,6 +146,18 @@ impl<'a> PartKey<'a> {
     }
 }
 
+impl PartKey<'_> {
+    /// Whether two keys are of one value: of one property, by whichever unit, and of one entry of it or of all.
+    fn shares_value(&self, other: &Self) -> bool {
+        let property = |key: &str| if key.starts_with("rpy_") { "rpy".to_owned() } else { key.to_owned() };
+        let is_one_entry = self.entry.is_none() || other.entry.is_none() || self.entry == other.entry;
+        self.kind == other.kind
+            && self.name == other.name
+            && property(self.key) == property(other.key)
+            && is_one_entry
+    }
+}
+
 /// A value of a link or joint.
 enum PartValue {
     Number(f64),
@@ -169,6 +197,9 @@ impl SetValue<'_> {
 
     fn in_joint(&self, joint: &Joint) -> Result<Joint, String> {
         let mut joint = joint.clone();
+        if joint.kind == JointKind::Fixed && ["damping", "friction", "armature"].contains(&self.key) {
+            return Err(format!("the joint is fixed, so its {} has no effect", self.key));
+        }
         match self.key {
             "damping" => joint.damping = self.not_negative()?,
             "friction" => joint.friction = self.not_negative()?,
@@ -197,6 +228,9 @@ impl SetValue<'_> {
     }
 
     fn not_negative(&self) -> Result<f64, String> {
+        if let Some(entry) = self.entry {
+            return Err(format!("\"{}\" is one number, without an entry \"{entry}\"", self.key));
+        }
         let number = self.change.number()?;
         if number >= 0.0 { Ok(number) } else { Err(format!("{number} is negative")) }
     }

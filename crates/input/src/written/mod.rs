@@ -4,6 +4,7 @@
 mod advice;
 pub(crate) mod array;
 pub(crate) mod digits;
+pub(crate) mod distinct_overrides;
 pub(crate) mod name;
 pub mod number;
 mod number_mistake;

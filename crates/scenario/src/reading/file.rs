@@ -8,7 +8,7 @@ use std::{
 
 use congruent_input::{
     Diagnostic, Diagnostics, FileAccess, Findings, Override, SourceFile, codes::toml::UNKNOWN_KEY,
-    direct_path, is_standard_input, nearest, toml_text,
+    direct_path, distinct_places, is_standard_input, nearest, toml_text,
 };
 use serde::Deserialize;
 use toml::Spanned;
@@ -18,7 +18,7 @@ use super::{
     faults::read_fault,
     motion::read_motion,
     other_file::{refuse_folder, refuse_other_text},
-    robot_overrides::{distinct_places, of_scenario},
+    robot_overrides::of_scenario,
     section::Section,
 };
 use crate::{
@@ -93,7 +93,7 @@ impl ScenarioFile {
         let in_file = |fault: Diagnostic| fault.in_file(&source);
         let mut document = toml_text::parse_document(&source.text).map_err(in_file)?;
         let places = PlaceNode::of_document(&source.text, &document);
-        distinct_places(overrides, &document).map_err(in_file)?;
+        distinct_places(of_scenario(overrides), &document).map_err(in_file)?;
         let set: Result<Vec<Range<usize>>, Diagnostic> =
             of_scenario(overrides).map(|change| change.apply(&mut document)).collect();
         let set = set.and_then(|set| set_once(overrides).map(|()| set)).map_err(in_file)?;

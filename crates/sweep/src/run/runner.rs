@@ -103,6 +103,7 @@ impl<'a> CaseRunner<'a> {
             let (of_model, of_file): (Vec<Override>, Vec<Override>) =
                 overrides.iter().cloned().partition(Robot::has_value);
             let loaded = self.robot(path, &of_file, access)?;
+            Robot::refuse_repeated(&of_model.iter().collect::<Vec<_>>())?;
             // Values of links and joints are set without the files, since plans vary them continuously.
             let set = |robot: Robot, change: &Override| robot.with_value(change);
             let robot = of_model.iter().try_fold(loaded.robot.clone(), set)?;
