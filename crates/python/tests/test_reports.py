@@ -113,6 +113,20 @@ def test_a_run_with_its_series(root: Path, tmp_path: Path, monkeypatch: pytest.M
     assert (Path(report.folder) / "recording.rrd").exists()
 
 
+def test_a_run_of_uncertain_values_has_its_cases(root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(root)
+    # 29 cases without a failure show 90 %, with confidence 95 %.
+    enough = {"uncertainty.cases": 29, "check.clearance.passing": 0.9, "check.tracking.passing": 0.9}
+    report = congruent.run("scenarios/ur5e_uncertain.toml", set=enough, out=tmp_path)
+    cases = report.json()["uncertainty"]
+    assert report.ok and cases["ran"] == 29 and cases["verdict"] == "met"
+    assert report.folder is not None
+    table = (Path(report.folder) / "cases.csv").read_text().splitlines()
+    assert len(table) == 30 and table[0].startswith("case,seed,verdict,payload.gripper.mass_kg")
+    few = congruent.run("scenarios/ur5e_uncertain.toml", set={**enough, "uncertainty.cases": 28})
+    assert not few.ok and "29 cases are needed" in str(few)
+
+
 def test_values_of_a_scenario_are_replaced(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(root)
     report = congruent.run("scenarios/rrr_arm_wave.toml", set={"simulation.step_s": 0.002, "name": "coarse"}, seed=3)
