@@ -164,6 +164,25 @@ fn digits_are_half_of_the_last_place() {
     assert_eq!(found["parameters"][0]["name"], "shoulder_lift_joint.a");
 }
 
+/// Errors of half a turn and more: no bound or draw is above 180 degrees, and the worst case is no better than a draw.
+#[test]
+fn large_tolerances_have_bounds_that_hold() {
+    for theta in ["--theta=60deg", "--theta=170deg"] {
+        let arguments = ["tolerances", "robots/ur5e", theta, "--samples=5000", "--random=50"];
+        let found = congruent_json(&arguments).json();
+        let worst = &found["worst_case"];
+        let drawn = |at: &str, what: &str| number(&found[at]["monte_carlo"][what]);
+        for (what, attained, certified) in
+            [("largest_m", "attained_m", "certified_m"), ("largest_rad", "attained_rad", "certified_rad")]
+        {
+            let drawn = drawn("worst", what).max(drawn("worst_orientation", what));
+            assert!(number(&worst[attained]) >= drawn, "{theta}: {worst}");
+            assert!(number(&worst[certified]) >= number(&worst[attained]), "{theta}: {worst}");
+        }
+        assert!(number(&worst["certified_rad"]) <= std::f64::consts::PI, "{theta}: {worst}");
+    }
+}
+
 #[test]
 fn the_plot_is_of_the_slice() {
     let folder = tempfile::tempdir().unwrap();

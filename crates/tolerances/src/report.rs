@@ -107,7 +107,7 @@ pub struct WorstConfiguration {
 /// All parameters within their tolerances, as bad as possible.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct WorstCase {
-    /// A distance that parameters at the ends of their tolerances attain, m.
+    /// A distance that parameters within their tolerances attain, m: as a rule at the ends of these.
     pub attained_m: f64,
     /// No parameters within their tolerances move the tool farther, m: at a configuration of the joint range, or at those that are
     /// given.
@@ -162,6 +162,20 @@ pub enum ToleranceVerdict {
 }
 
 impl WorstCase {
+    /// The same with the largest errors that were drawn within the tolerances: of large ones the worst need not be at their ends.
+    pub(crate) fn or_drawn(self, drawn: [&WorstConfiguration; 2]) -> Self {
+        let with = |worst: Self, of: &WorstConfiguration| {
+            let MonteCarloError { largest_m, largest_rad, .. } = of.levels.monte_carlo;
+            let attained_rad = worst.attained_rad.max(largest_rad);
+            if largest_m > worst.attained_m {
+                Self { attained_m: largest_m, attained_rad, at: of.at.clone(), ..worst }
+            } else {
+                Self { attained_rad, ..worst }
+            }
+        };
+        drawn.into_iter().fold(self, with)
+    }
+
     /// The same with what is certified at given configurations, if there are some: no bound over the whole range is tighter.
     pub(crate) fn or_largest_of(self, at: &[ConfigurationError]) -> Self {
         if at.is_empty() {

@@ -106,6 +106,9 @@ pub fn tolerance_study(
     let (worst_case, errors) = studied.worst_case(&directions);
     let at = studied.at_each(&columns, &norm, &directions);
     let worst_case = worst_case.or_largest_of(&at);
+    // Normal errors are drawn beyond the tolerances, too.
+    let is_within = tolerated.spread.sigmas().is_none();
+    let worst_case = if is_within { worst_case.or_drawn([&worst, &worst_orientation]) } else { worst_case };
     let order = tightening_order(tolerated, &columns, &norm, &errors, overall.first_order.p95_m);
     let RequestedTolerance { position_m, orientation_rad } = options.required;
     let is_required = position_m.is_some() || orientation_rad.is_some();

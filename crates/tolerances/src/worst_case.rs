@@ -71,6 +71,11 @@ fn remainder_rad(motions: &[BoundedMotion]) -> f64 {
     remainder
 }
 
+/// The angle of a rotation that is at most a sum of turns: none is above half a turn.
+fn angle(turned_rad: f64) -> f64 {
+    turned_rad.min(std::f64::consts::PI)
+}
+
 /// A bound of the error at one configuration, for errors of the parameters within `tolerances`.
 pub(crate) fn certified_at(
     at: &ErrorMotions,
@@ -91,7 +96,7 @@ pub(crate) fn certified_at(
     let rounding_m = at.tcp_in_base.norm() * ROUNDING;
     CertifiedError {
         position_m: (directions.longest_at_most(&linear) + remainder_m(&motions)) * OUTWARD + rounding_m,
-        orientation_rad: (directions.longest_at_most(&angular) + remainder_rad(&motions)) * OUTWARD,
+        orientation_rad: angle((directions.longest_at_most(&angular) + remainder_rad(&motions)) * OUTWARD),
     }
 }
 
@@ -135,7 +140,7 @@ pub(crate) fn certified_over(
     }
     CertifiedError {
         position_m: (position_m + remainder_m(&bounded)) * OUTWARD,
-        orientation_rad: (orientation_rad + remainder_rad(&bounded)) * OUTWARD,
+        orientation_rad: angle((orientation_rad + remainder_rad(&bounded)) * OUTWARD),
     }
 }
 

@@ -16,4 +16,4 @@ mod stopping;
 pub use control::JointController;
 pub use outcome::{Outcome, RunError};
 pub use run::{Run, RunObserver};
-pub use setup::{CaseValue, KnownValues, LoadRobot, RunSetup, UncertainCase};
+pub use setup::{CaseValue, KnownValues, LoadRobot, RunSetup, UncertainCase, is_of_the_run};

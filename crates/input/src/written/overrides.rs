@@ -284,8 +284,8 @@ impl Override {
     /// A refusal of this override, with how keys are written.
     pub fn refused(&self, why: &str) -> Diagnostic {
         Diagnostic::error(codes::cli::SET, format!("--set {}: {why}", self.written)).with_help(
-            "KEY is the keys of the file joined by dots, entries of lists by their number from 1, or by their kind: \
-             check.1.position_m=1e-6, check.agreement.position_m=1e-6",
+            "KEY is the keys of the file joined by dots, entries of lists by their number from 1, or by their kind, name or joint: \
+             check.agreement.position_m=1e-6, dh.row.elbow_joint.d_m=0.4",
         )
     }
 }

@@ -1,6 +1,9 @@
 //! The plan of a sweep: which values of a scenario vary, and how; from its file to the overrides of any case.
 
+mod around;
 mod distribution;
+mod given;
+mod key;
 mod nominal;
 mod of_scenario;
 mod read;

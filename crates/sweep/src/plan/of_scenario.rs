@@ -8,9 +8,10 @@ use congruent_scenario::ScenarioFile;
 use congruent_twin::RunSetup;
 
 use super::{
+    key::refuse_fixed,
     nominal::NominalValues,
     read::{SEED, SweepPlan, at, checked_cases, repeated},
-    varied::{VariedKey, refuse_fixed, varied},
+    varied::{VariedKey, varied},
 };
 use crate::{codes, sampling::PointSource};
 

@@ -15,9 +15,10 @@ use congruent_scenario::CaseSampling;
 use toml::Spanned;
 
 use super::{
+    key::{is_inside, key_of},
     nominal::NominalValues,
     requirement::passing_share,
-    varied::{VariedKey, is_inside, key_of, varied},
+    varied::{VariedKey, varied},
     written::WrittenPlan,
 };
 use crate::{

@@ -1,27 +1,10 @@
 //! The ends of what varies, before any case runs: a value that no scenario may have is a mistake, no result.
 
 use congruent_input::{Diagnostic, Findings, Severity};
+use congruent_twin::is_of_the_run;
 
 use super::runner::CaseRunner;
 use crate::plan::{Distribution, VariedKey};
-
-/// Names of the codes that say what a robot cannot do from there, and not that the scenario is wrong: what cases are about.
-const OF_THE_RUN: [&str; 14] = [
-    "scenario::arc_speed",
-    "scenario::obstacle_overlap",
-    "scenario::orientation",
-    "scenario::out_of_reach",
-    "scenario::over_limit",
-    "scenario::path_limit",
-    "scenario::path_reach",
-    "scenario::path_singular",
-    "scenario::path_speed",
-    "scenario::playback_jump",
-    "scenario::playback_range",
-    "scenario::playback_start",
-    "scenario::start_limit",
-    "scenario::target_limit",
-];
 
 impl CaseRunner<'_> {
     /// Refuses a distribution whose least or largest value, alone, makes a scenario that is refused, as a negative mass does. A start or a
@@ -46,8 +29,12 @@ impl CaseRunner<'_> {
                 return Some(placed);
             }
             let message = format!("key \"{key}\" = {end}: {}", placed.message);
-            let is_open = matches!(distribution, Distribution::Normal { range, .. } if range.iter().any(|end| end.is_infinite()));
-            let cut = is_open.then(|| "cut the normal distribution by min and max".to_owned());
+            let cut = match distribution {
+                Distribution::Normal { range, .. } if range.iter().any(|end| end.is_infinite()) => {
+                    Some("cut the normal distribution by min and max".to_owned())
+                }
+                _ => None,
+            };
             Some(Diagnostic { message, help: cut.or(placed.help.clone()), ..placed })
         })
     }
@@ -55,9 +42,6 @@ impl CaseRunner<'_> {
     /// What is wrong with the scenario if a key has a value.
     fn mistake(&self, varied: &VariedKey, value: &str) -> Option<Diagnostic> {
         let findings = self.setup_with(&self.plan().with_value(varied, value)).err()?;
-        let is_mistake = |finding: &Diagnostic| {
-            finding.severity == Severity::Error && !OF_THE_RUN.contains(&finding.code.name)
-        };
-        findings.into_iter().find(is_mistake)
+        findings.into_iter().find(|finding| finding.severity == Severity::Error && !is_of_the_run(finding))
     }
 }
