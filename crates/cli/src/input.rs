@@ -52,7 +52,7 @@ pub(crate) struct SetArguments {
     ///
     /// KEY is a key of robot.toml: keys joined by dots, an entry of a list by its number, from 1, or its joint. Or it is a value of a
     /// link or joint, also of one in a URDF or MJCF: `link.NAME.mass_kg` and `com_m`, `joint.NAME.damping`, `friction`, `armature`,
-    /// `xyz_m` and `rpy_deg`. VALUE is TOML, in the unit of the key. May be given several times.
+    /// `xyz_m` and `rpy_deg`; `check` takes keys of robot.toml alone. VALUE is TOML, in the unit of the key. May be given several times.
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Override::of_argument)]
     overrides: Vec<Override>,
 }

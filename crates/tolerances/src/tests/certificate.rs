@@ -25,7 +25,7 @@ fn errors(tolerated: &ToleratedChain, random: &mut Uniform, share: fn(f64) -> f6
 
 #[track_caller]
 fn assert_holds(description: &RobotDescription, scale: f64) {
-    let mut tolerated = declared(description, &typical()).unwrap();
+    let mut tolerated = declared(description, &typical(description)).unwrap();
     tolerated.spread.tolerances.iter_mut().for_each(|within| *within *= scale);
     let directions = CoveringDirections::new();
     let tolerances = &tolerated.spread.tolerances;

@@ -137,7 +137,7 @@ fn errors_are_those_of_a_changed_table() {
 fn errors_are_those_of_changed_origins() {
     let description = robot("robots/panda/panda.urdf");
     let (base, tip) = (description.base, description.tip);
-    let mut general = typical();
+    let mut general = typical(&description);
     (general.base, general.tcp) = Default::default();
     (general.general.zero_rad, general.general.zero_m) = (None, None);
     let tolerated = declared(&description, &general).unwrap();
@@ -174,7 +174,7 @@ fn columns_are_derivatives() {
     const CENTRAL: f64 = 2e-9;
     for path in ["robots/ur5e", "robots/panda", "robots/ur5e/ur5e.urdf"] {
         let description = robot(path);
-        let tolerated = declared(&description, &typical()).unwrap();
+        let tolerated = declared(&description, &typical(&description)).unwrap();
         let count = tolerated.parameters.len();
         let (mut at, mut columns) = (ErrorMotions::default(), Vec::new());
         for q in drawn(&description, 5) {

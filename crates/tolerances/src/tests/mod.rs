@@ -19,29 +19,21 @@ fn robot(path: &str) -> RobotDescription {
 }
 
 /// 0.05 mm and 0.02 deg of everything that the robot has.
-fn typical() -> DeclaredTolerances {
+fn typical(description: &RobotDescription) -> DeclaredTolerances {
     let (length, angle) = (Some(5e-5), Some(0.02_f64.to_radians()));
     let frame = FrameTolerances { position_m: length, orientation_rad: angle };
-    DeclaredTolerances {
-        general: ParameterTolerances {
-            a_m: length,
-            d_m: length,
-            alpha_rad: angle,
-            theta_rad: angle,
-            zero_rad: angle,
-            zero_m: length,
-            xyz_m: length,
-            rpy_rad: angle,
-        },
-        base: frame,
-        tcp: frame,
-        ..DeclaredTolerances::default()
-    }
+    let zeros = ParameterTolerances { zero_rad: angle, zero_m: length, ..ParameterTolerances::default() };
+    let general = if description.dh.is_some() {
+        ParameterTolerances { a_m: length, d_m: length, alpha_rad: angle, theta_rad: angle, ..zeros }
+    } else {
+        ParameterTolerances { xyz_m: length, rpy_rad: angle, ..zeros }
+    };
+    DeclaredTolerances { general, base: frame, tcp: frame, ..DeclaredTolerances::default() }
 }
 
 /// The same of the rows of a table alone.
 fn of_rows() -> DeclaredTolerances {
-    let typical = typical();
+    let typical = typical(&robot("robots/ur5e"));
     let general = ParameterTolerances { zero_m: None, zero_rad: None, ..typical.general };
     DeclaredTolerances { general, ..DeclaredTolerances::default() }
 }
