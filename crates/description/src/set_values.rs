@@ -3,7 +3,7 @@
 use std::{path::Path, sync::Arc};
 
 use congruent_input::{
-    FileAccess, Findings, Override, SourceFile, distinct_places, toml_text::parse_document,
+    Diagnostic, FileAccess, Findings, Override, SourceFile, distinct_places, toml_text::parse_document,
 };
 use congruent_robot::Robot;
 
@@ -56,9 +56,20 @@ pub fn load_robot_set(
             load_opened_robot(&Arc::new(edited), access)?
         }
     };
-    Robot::refuse_repeated(&of_model)?;
-    let robot =
-        of_model.into_iter().try_fold(description.robot.clone(), |robot, change| robot.with_value(change))?;
     let set_values = overrides.iter().map(ToString::to_string).collect();
-    Ok(RobotDescription { robot, set_values, ..description })
+    Ok(RobotDescription { set_values, ..description.with_model_values(&of_model)? })
+}
+
+impl RobotDescription {
+    /// The same robot with other values of links and joints.
+    ///
+    /// # Errors
+    /// As [`Robot::with_value`](congruent_robot::Robot::with_value), or two are of one value.
+    pub fn with_model_values(mut self, changes: &[&Override]) -> Result<Self, Diagnostic> {
+        Robot::refuse_repeated(changes)?;
+        for change in changes {
+            self.robot = self.robot.with_value(change)?;
+        }
+        Ok(self)
+    }
 }

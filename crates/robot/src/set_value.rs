@@ -147,13 +147,17 @@ impl<'a> PartKey<'a> {
 }
 
 impl PartKey<'_> {
+    /// What the key is of, by whichever unit.
+    fn property(&self) -> &str {
+        if self.key.starts_with("rpy_") { "rpy" } else { self.key }
+    }
+
     /// Whether two keys are of one value: of one property, by whichever unit, and of one entry of it or of all.
     fn shares_value(&self, other: &Self) -> bool {
-        let property = |key: &str| if key.starts_with("rpy_") { "rpy".to_owned() } else { key.to_owned() };
         let is_one_entry = self.entry.is_none() || other.entry.is_none() || self.entry == other.entry;
         self.kind == other.kind
             && self.name == other.name
-            && property(self.key) == property(other.key)
+            && self.property() == other.property()
             && is_one_entry
     }
 }

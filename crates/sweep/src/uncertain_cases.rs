@@ -94,6 +94,7 @@ fn run_case(runner: &CaseRunner<'_>, number: u64, interrupt: &AtomicBool) -> Opt
 
 /// Adds to the quantities of a check the varied keys that decide them.
 fn decide(check: &mut CheckInCases, name: &str, plan: &SweepPlan, rows: &[CaseRow]) {
+    let keys = plan.keys();
     for of in &mut check.quantities {
         let QuantityInCases { quantity, unit, of_changing_pairs, .. } = *of;
         let end = if of_changing_pairs { OF_CHANGING_PAIRS } else { "" };
@@ -101,7 +102,7 @@ fn decide(check: &mut CheckInCases, name: &str, plan: &SweepPlan, rows: &[CaseRo
         let with_value: Vec<&CaseRow> = rows.iter().filter(|row| row.worst.contains_key(&name)).collect();
         let values: Vec<f64> =
             with_value.iter().map(|row| row.worst[&name].value.unwrap_or(f64::NAN)).collect();
-        let mut deciding = importances(&plan.keys(), plan.sampling, &with_value, &values);
+        let mut deciding = importances(&keys, plan.sampling, &with_value, &values);
         // What may be chance decides nothing.
         deciding.retain(|key| key.interval[0] > 0.0);
         of.deciding = deciding;

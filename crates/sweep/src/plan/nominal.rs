@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use congruent_description::{Robot, load_robot_set};
+use congruent_description::{ROBOT_FILE_BYTES, Robot, load_robot_set};
 use congruent_input::{
     Diagnostic, FileAccess, Findings, NumberAt, Override,
     codes::{cli::SET, toml::UNKNOWN_KEY},
@@ -10,8 +10,6 @@ use congruent_input::{
 };
 use congruent_scenario::{ScenarioFile, robot_overrides, written_numbers};
 
-/// Largest robot file that is read. Kind: choice, as that of a plan.
-const MOST_BYTES: u64 = 1 << 20;
 /// The key of the robot's values.
 const ROBOT: &str = "robot";
 
@@ -31,25 +29,27 @@ impl NominalValues<'_> {
             return written_numbers(scenario, overrides, key, access);
         };
         let numbers = || {
-            let robot = ScenarioFile::read_with(scenario, overrides, access)?.robot_path();
-            let access = access.inside_project_of(scenario)?;
-            access.check(&robot)?;
-            robot_numbers(&robot, &robot_overrides(overrides), &of_robot, &access)
+            let (file, access) = self.file_and_access(overrides)?;
+            robot_numbers(&file.robot_path(), &robot_overrides(overrides), &of_robot, &access)
         };
         let numbers = numbers().map_err(Findings::into_first)?;
         let outer = |number: NumberAt| NumberAt { key: format!("{ROBOT}.{}", number.key), ..number };
         Ok(numbers.into_iter().map(outer).collect())
     }
-}
 
-impl NominalValues<'_> {
+    /// The scenario file with these values, and what its robot may open, which may be opened itself.
+    fn file_and_access(&self, overrides: &[Override]) -> Result<(ScenarioFile, FileAccess), Findings> {
+        let file = ScenarioFile::read_with(self.scenario, overrides, self.access)?;
+        let access = self.access.inside_project_of(self.scenario)?;
+        access.check(&file.robot_path())?;
+        Ok((file, access))
+    }
+
     /// The finding about a key that no file may have; `None` if one may.
     pub(super) fn unknown_key(&self, key: &Override) -> Option<Diagnostic> {
-        let Self { scenario, overrides, access } = *self;
-        let overrides: Vec<Override> = overrides.iter().chain([key]).cloned().collect();
+        let overrides: Vec<Override> = self.overrides.iter().chain([key]).cloned().collect();
         let read = || {
-            let file = ScenarioFile::read_with(scenario, &overrides, access)?;
-            let access = access.inside_project_of(scenario)?;
+            let (file, access) = self.file_and_access(&overrides)?;
             let robot = load_robot_set(&file.robot_path(), &robot_overrides(&overrides), &access);
             robot.map(|_| file.findings().to_vec())
         };
@@ -73,7 +73,7 @@ fn robot_numbers(
         let why = format!("{} is no robot file (robot.toml), which has such keys", loaded.path.display());
         return Err(key.refused(&why).into());
     }
-    let text = access.read_named_text(&loaded.path, MOST_BYTES)?.text.clone();
+    let text = access.read_named_text(&loaded.path, ROBOT_FILE_BYTES)?.text.clone();
     let of_file = overrides.iter().filter(|change| !Robot::has_value(change));
     let text = of_file.into_iter().try_fold(text, |text, change| change.edit_text(&text))?;
     Ok(key.numbers_in(&parse_document(&text)?)?)

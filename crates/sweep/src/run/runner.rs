@@ -100,17 +100,15 @@ impl<'a> CaseRunner<'a> {
     /// As [`CaseRunner::setup`].
     pub fn setup_with(&self, overrides: &[Override]) -> Result<RunSetup, Findings> {
         let robot = |path: &Path, overrides: &[Override], access: &FileAccess| {
-            let (of_model, of_file): (Vec<Override>, Vec<Override>) =
-                overrides.iter().cloned().partition(Robot::has_value);
-            let loaded = self.robot(path, &of_file, access)?;
-            Robot::refuse_repeated(&of_model.iter().collect::<Vec<_>>())?;
+            let (of_model, of_file): (Vec<&Override>, Vec<&Override>) =
+                overrides.iter().partition(|change| Robot::has_value(change));
+            let loaded = self.robot(path, &of_file.into_iter().cloned().collect::<Vec<_>>(), access)?;
             // Values of links and joints are set without the files, since plans vary them continuously.
-            let set = |robot: Robot, change: &Override| robot.with_value(change);
-            let robot = of_model.iter().try_fold(loaded.robot.clone(), set)?;
+            let described = RobotDescription::clone(&loaded).with_model_values(&of_model)?;
             if let Some(known) = self.known() {
-                same_joints(&robot, &known.description.robot)?;
+                same_joints(&described.robot, &known.description.robot)?;
             }
-            Ok(RobotDescription { robot, ..RobotDescription::clone(&loaded) })
+            Ok(described)
         };
         let (access, known) = (self.access.fresh(), self.known().map(|known| &known.description));
         RunSetup::load_with_robot(&self.plan.scenario, overrides, &access, &robot, known)?.for_simulation()
